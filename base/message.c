@@ -1,0 +1,44 @@
+#include "base/message.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static _Thread_local char last_message[HYPOFAB_MESSAGE_SIZE];
+
+hypofab_status hypofab_fail(hypofab_status status, const char *format, ...) {
+  /* A message may quote the previous one, so format into a second buffer first. */
+  char text[HYPOFAB_MESSAGE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  memcpy(last_message, text, sizeof last_message);
+  return status;
+}
+
+void hypofab_set_message(const char *text, int length) { hypofab_fail(HYPOFAB_OK, "%.*s", length, text); }
+
+const char *hypofab_last_message(void) { return last_message; }
+
+const char *hypofab_version(void) { return HYPOFAB_VERSION; }
+
+const char *hypofab_status_text(hypofab_status status) {
+  switch (status) {
+    case HYPOFAB_OK: return "done";
+    case HYPOFAB_NOT_CONTROLLABLE: return "loss of controllability: no strain rate satisfies the prescribed rates";
+    case HYPOFAB_NOT_UNIQUE: return "loss of uniqueness: two strain rates satisfy the prescribed rates";
+    case HYPOFAB_OUT_OF_DOMAIN: return "the state left the model's domain";
+    case HYPOFAB_STEP_LIMIT: return "the bound on work was reached";
+    case HYPOFAB_TARGET_NOT_REACHED: return "the step ran its maximum time without meeting its end condition";
+    case HYPOFAB_INTERRUPTED: return "interrupted";
+    case HYPOFAB_BAD_MATERIAL: return "inadmissible material parameter";
+    case HYPOFAB_BAD_STATE: return "inadmissible state";
+    case HYPOFAB_BAD_ARGUMENT: return "inadmissible argument";
+    case HYPOFAB_BAD_FILE: return "unusable input file";
+    case HYPOFAB_NO_MEMORY: return "out of memory";
+    case HYPOFAB_IO_ERROR: return "a result file could not be written";
+    case HYPOFAB_INTERNAL_ERROR: return "internal error";
+  }
+  return "unknown status";
+}

@@ -1,0 +1,16 @@
+# Everything libhypofab links, in one interface library. libhypofab_umat links none of it.
+find_package(PkgConfig REQUIRED)
+find_package(SUNDIALS 6 REQUIRED CONFIG COMPONENTS arkode nvecserial) # element tests
+find_package(LAPACK REQUIRED) # mixed control, principal values
+find_package(GSL REQUIRED) # quadratic of the plain model's control
+find_package(ZLIB REQUIRED) # contact lists compressed by gzip
+pkg_check_modules(CYAML REQUIRED IMPORTED_TARGET libcyaml) # decks
+pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson) # JSON results
+find_library(CSV_LIBRARY csv REQUIRED) # contact lists; libcsv ships no pkg-config file
+find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
+
+add_library(hypofab_dependencies INTERFACE)
+target_include_directories(hypofab_dependencies INTERFACE ${CSV_INCLUDE_DIR})
+target_link_libraries(
+  hypofab_dependencies INTERFACE SUNDIALS::arkode SUNDIALS::nvecserial LAPACK::LAPACK GSL::gsl ZLIB::ZLIB PkgConfig::CYAML
+                                 PkgConfig::JANSSON ${CSV_LIBRARY} m)

@@ -1,0 +1,27 @@
+# Compiler flags of every target of the project, as an interface library that is never exported.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo" FORCE)
+endif()
+
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+
+add_library(hypofab_flags INTERFACE)
+target_compile_options(
+  hypofab_flags
+  INTERFACE $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra>
+            $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -fimplicit-none -Wall -Wextra -ffree-line-length-none>
+            # Traps for what the model must never do; the host of a UMAT may run with them.
+            $<$<AND:$<CONFIG:Debug>,$<COMPILE_LANGUAGE:Fortran>>:-fcheck=all -ffpe-trap=invalid -fbacktrace>)
+
+if(HYPOFAB_WERROR)
+  target_compile_options(hypofab_flags INTERFACE -Werror)
+endif()
+if(HYPOFAB_NATIVE)
+  target_compile_options(hypofab_flags INTERFACE -march=native)
+endif()
+if(HYPOFAB_SANITIZE)
+  target_compile_options(hypofab_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                 -fno-omit-frame-pointer)
+  target_link_options(hypofab_flags INTERFACE -fsanitize=address,undefined)
+endif()

@@ -1,0 +1,2 @@
+# Install rules, pkg-config files and the CMake package `hypofab`.
+include(CMakePackageConfigHelpers)

@@ -1,0 +1,434 @@
+/**
+ * @file hypofab.h
+ * @brief The public C interface of hypofab: from grain contacts to finite elements.
+ *
+ * Conventions, everywhere in this header:
+ *  - tension is positive, for stress and for strain;
+ *  - a symmetric tensor is six numbers in the order xx yy zz xy xz yz, and its
+ *    shear numbers are TENSOR components (eps_xy = gamma_xy / 2);
+ *  - stresses carry the unit of the material's h_s; angles are degrees;
+ *  - a function that can fail returns a hypofab_status; on failure its outputs
+ *    are untouched unless stated otherwise and hypofab_last_message() says
+ *    what happened;
+ *  - nothing here prints, stops or exits, and everything may be called from
+ *    several threads at once on different objects.
+ *
+ * Papers named below: Wolffersdorff = von Wolffersdorff (1996); Niemunis & Herle (1997);
+ * equation numbers are listed in docs/theory.md.
+ */
+#ifndef HYPOFAB_H
+#define HYPOFAB_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#endif
+
+/* ------------------------------------------------------------------ status */
+
+/** Outcome of a call. 1..99: a physical finding; 100..199: bad input; 200..: internal error. */
+typedef enum hypofab_status {
+  HYPOFAB_OK = 0,
+  HYPOFAB_NOT_CONTROLLABLE = 1, /**< no strain rate satisfies the prescribed rates (peak, limit point) */
+  HYPOFAB_NOT_UNIQUE = 2,       /**< two strain rates satisfy the prescribed rates */
+  HYPOFAB_OUT_OF_DOMAIN = 3,    /**< a principal stress became tensile or zero, or void ratio left (0, inf) */
+  HYPOFAB_STEP_LIMIT = 4,       /**< the bound on work (rate evaluations, integrator steps) was reached */
+  HYPOFAB_TARGET_NOT_REACHED = 5, /**< a step ran its maximum time without meeting its end condition */
+  HYPOFAB_INTERRUPTED = 6,      /**< the caller's callback asked to stop */
+  HYPOFAB_BAD_MATERIAL = 100,   /**< a parameter is outside its admissible range, or unknown */
+  HYPOFAB_BAD_STATE = 101,      /**< a state is outside the model's domain, or not finite */
+  HYPOFAB_BAD_ARGUMENT = 102,   /**< another argument is wrong */
+  HYPOFAB_BAD_FILE = 103,       /**< a file cannot be read, or its content is wrong */
+  HYPOFAB_NO_MEMORY = 200,
+  HYPOFAB_IO_ERROR = 201,       /**< a result file cannot be written */
+  HYPOFAB_INTERNAL_ERROR = 202
+} hypofab_status;
+
+/** One sentence for a status, e.g. "loss of controllability: ..."; never NULL. */
+const char *hypofab_status_text(hypofab_status status);
+
+/** The message of the last failed call in this thread; "" before any failure; never NULL. */
+const char *hypofab_last_message(void);
+
+/** Library version, "major.minor.patch". */
+const char *hypofab_version(void);
+
+/* ---------------------------------------------------------------- material */
+
+/** Number of material parameters: PROPS(1..16) of the UMAT, in this order. */
+#define HYPOFAB_N_PARAMETERS 16
+
+/** Material parameters, in the order of the UMAT's PROPS (docs/theory.md, section 3). */
+typedef struct hypofab_material {
+  double phi_c;  /**< critical friction angle [deg] */
+  double p_t;    /**< shift of stress: the model sees T - p_t 1 [stress] */
+  double h_s;    /**< granular hardness [stress] */
+  double n;      /**< exponent of the compression law [-] */
+  double e_d0;   /**< void ratio of densest packing at p = 0 [-] */
+  double e_c0;   /**< critical void ratio at p = 0 [-] */
+  double e_i0;   /**< void ratio of loosest packing at p = 0 [-] */
+  double alpha;  /**< exponent of f_d [-] */
+  double beta;   /**< exponent of f_e [-] */
+  double m_R;    /**< stiffness factor at 180 deg reversal; <= 0.5: no intergranular strain [-] */
+  double m_T;    /**< stiffness factor at 90 deg turn [-] */
+  double R;      /**< size of the elastic strain range, the largest |delta| [-] */
+  double beta_r; /**< exponent of the evolution of delta [-] */
+  double chi;    /**< exponent of the interpolation in rho [-] */
+  double K_w;    /**< bulk stiffness of pore water for locally undrained runs; 0: drained; UMAT only [stress] */
+  double e_0;    /**< initial void ratio; UMAT only [-] */
+} hypofab_material;
+
+/** What is known of one parameter. Strings are static. */
+typedef struct hypofab_parameter_info {
+  const char *name;        /**< as in hypofab_material and in decks */
+  const char *unit;        /**< "deg", "stress" or "-" */
+  const char *description; /**< one line */
+  double lower, upper;     /**< admissible values: lower <= x <= upper */
+} hypofab_parameter_info;
+
+/**
+ * @brief Describe one material parameter.
+ * @param index 0 .. HYPOFAB_N_PARAMETERS-1, the order of hypofab_material
+ * @param info  filled
+ * @return HYPOFAB_BAD_ARGUMENT when index is out of range
+ */
+hypofab_status hypofab_parameter_describe(int index, hypofab_parameter_info *info);
+
+/** Number of built-in sands. */
+int hypofab_sand_count(void);
+
+/** What is known of one built-in sand. Strings are static. */
+typedef struct hypofab_sand_info {
+  const char *name;        /**< key, e.g. "hochstetten_wolffersdorff" */
+  const char *description; /**< one line */
+  const char *source;      /**< publication the parameters come from */
+} hypofab_sand_info;
+
+/** Describe built-in sand number index (0-based); HYPOFAB_BAD_ARGUMENT when out of range. */
+hypofab_status hypofab_sand_describe(int index, hypofab_sand_info *info);
+
+/**
+ * @brief Parameters of a built-in sand, with h_s in kPa.
+ * @param name key of the sand
+ * @param material filled
+ * @return HYPOFAB_BAD_MATERIAL for an unknown name; the message lists the known ones
+ */
+hypofab_status hypofab_sand(const char *name, hypofab_material *material);
+
+/** Is every parameter finite, within its bounds and consistent (e_d0 < e_c0 <= e_i0, ...)? */
+hypofab_status hypofab_material_check(const hypofab_material *material);
+
+/* ------------------------------------------------------------------- state */
+
+/** State of a material point. Also used for its rate. */
+typedef struct hypofab_state {
+  double stress[6]; /**< effective Cauchy stress T [stress] */
+  double delta[6];  /**< intergranular strain [-] */
+  double void_ratio;
+} hypofab_state;
+
+/** Is the state inside the model's domain for this material? Message names the offending quantity. */
+hypofab_status hypofab_state_check(const hypofab_material *material, const hypofab_state *state);
+
+/* ------------------------------------------------------------ constitutive */
+
+/** Branches of the model: told apart by the sign of delta : D. */
+typedef enum hypofab_branch {
+  HYPOFAB_PLAIN = 0,    /**< no intergranular strain: Tdot = L D + N |D| */
+  HYPOFAB_LOADING = 1,  /**< delta : D > 0, and delta = 0 */
+  HYPOFAB_REVERSAL = 2  /**< delta : D <= 0 */
+} hypofab_branch;
+
+/**
+ * @brief Rates of stress, intergranular strain and void ratio (Wolffersdorff; Niemunis & Herle).
+ * @param material  parameters
+ * @param state     stress inside the model's domain
+ * @param stretching D, six tensor components [1/time]
+ * @param rate      filled: rates of stress, delta and void ratio [per time]
+ * @param branch    filled with the branch taken, unless NULL
+ */
+hypofab_status hypofab_rate(const hypofab_material *material, const hypofab_state *state, const double stretching[6],
+                            hypofab_state *rate, hypofab_branch *branch);
+
+/**
+ * @brief The linear parts of the rate equation, for mixed control, stability and tangents.
+ *
+ * With intergranular strain: Tdot = reversal D on delta:D <= 0 and
+ * Tdot = reversal D + jump (direction : D) on delta:D > 0.
+ * Without: Tdot = reversal D + jump |D| (reversal = L, jump = N), direction = 0.
+ * Matrices act on TENSOR components: Tdot_i = sum_j reversal[i][j] D_j with the
+ * double counting of shear (D_xy and D_yx) already in the columns.
+ * @param reversal  6x6, row-major [stress]
+ * @param jump      6 [stress]
+ * @param direction delta/|delta|, tensor components; 0 for delta = 0 and for the plain model
+ * @param branch    HYPOFAB_PLAIN, or HYPOFAB_LOADING when the model has two branches
+ */
+hypofab_status hypofab_linear_parts(const hypofab_material *material, const hypofab_state *state, double reversal[36],
+                                    double jump[6], double direction[6], hypofab_branch *branch);
+
+/** Options of hypofab_update; zero in a field takes its default. */
+typedef struct hypofab_update_options {
+  double tolerance;     /**< relative local error of stress, delta and void ratio; default 1e-6 */
+  int max_evaluations;  /**< bound on rate evaluations; default 20000 */
+} hypofab_update_options;
+
+/** What an update did. */
+typedef struct hypofab_update_report {
+  int evaluations;       /**< rate evaluations */
+  hypofab_branch branch; /**< branch at the end of the increment */
+  double substep;        /**< fraction of the increment the error control suggests for the next substep, in (0, 1] */
+} hypofab_update_report;
+
+/**
+ * @brief Integrate one strain increment at constant direction (no rotation).
+ * @param material  parameters
+ * @param options   NULL for the defaults
+ * @param state     in: start; out: end; untouched on failure
+ * @param strain    strain increment, six tensor components
+ * @param tangent   d stress / d strain increment, 6x6 row-major, acting on tensor components as in
+ *                  hypofab_linear_parts; NULL when not wanted. It is the continuum stiffness of the branch at the end.
+ * @param report    filled, also on failure, unless NULL
+ */
+hypofab_status hypofab_update(const hypofab_material *material, const hypofab_update_options *options,
+                              hypofab_state *state, const double strain[6], double tangent[36],
+                              hypofab_update_report *report);
+
+/* ------------------------------------------------------------ element test */
+
+/** Output quantities: the columns of a result row, and what a step's end and row spacing may refer to. */
+typedef enum hypofab_quantity {
+  HYPOFAB_TIME = 0,
+  HYPOFAB_EPS_XX, HYPOFAB_EPS_YY, HYPOFAB_EPS_ZZ, HYPOFAB_EPS_XY, HYPOFAB_EPS_XZ, HYPOFAB_EPS_YZ,
+  HYPOFAB_SIG_XX, HYPOFAB_SIG_YY, HYPOFAB_SIG_ZZ, HYPOFAB_SIG_XY, HYPOFAB_SIG_XZ, HYPOFAB_SIG_YZ,
+  HYPOFAB_DELTA_XX, HYPOFAB_DELTA_YY, HYPOFAB_DELTA_ZZ, HYPOFAB_DELTA_XY, HYPOFAB_DELTA_XZ, HYPOFAB_DELTA_YZ,
+  HYPOFAB_VOID_RATIO,
+  HYPOFAB_P,     /**< -tr(T)/3 */
+  HYPOFAB_Q,     /**< sqrt(3/2 s:s) */
+  HYPOFAB_EPS_V, /**< tr eps, since the start of the test */
+  HYPOFAB_EPS_Q, /**< sqrt(2/3 e:e), since the start of the test */
+  HYPOFAB_RHO,   /**< |delta|/R */
+  HYPOFAB_PHI_MOB, /**< mobilised friction angle, asin((s1-s3)/(s1+s3)) [deg] */
+  HYPOFAB_N_QUANTITIES
+} hypofab_quantity;
+
+/** Column name of a quantity ("time", "eps_xx", ...); NULL when out of range. */
+const char *hypofab_quantity_name(hypofab_quantity quantity);
+
+/** The quantity of a column name, or HYPOFAB_N_QUANTITIES when there is none. */
+hypofab_quantity hypofab_quantity_find(const char *name);
+
+/** A quantity and a value: the end of a step, or a spacing. */
+typedef struct hypofab_mark {
+  hypofab_quantity quantity;
+  double value;
+} hypofab_mark;
+
+/**
+ * One step of an element test: six linear conditions
+ *   sum_j on_stress[i][j] Tdot_j + sum_j on_strain[i][j] D_j = rate[i],   i = 1..6,
+ * on tensor components, constant during the step. Fill it with hypofab_step_control or hypofab_step_preset.
+ */
+typedef struct hypofab_step {
+  double on_stress[6][6];
+  double on_strain[6][6];
+  double rate[6];
+  hypofab_mark until;   /**< the step ends when this value is met (found as a root, not overshot) */
+  double max_time;      /**< give up after this time since the step's start; 0: a bound of 100 % strain, or
+                             of 10^4 times the initial p when every condition is on stress */
+  int rows;             /**< rows evenly spaced in the until quantity, from the step's start to its end;
+                             0: use every */
+  hypofab_mark every;   /**< row spacing in a quantity, used when rows is 0 (value > 0) */
+} hypofab_step;
+
+/** What a component of a step prescribes. */
+typedef enum hypofab_control { HYPOFAB_STRAIN_RATE = 0, HYPOFAB_STRESS_RATE = 1 } hypofab_control;
+
+/** Fill the six conditions of a step component by component. */
+hypofab_status hypofab_step_control(hypofab_step *step, const hypofab_control control[6], const double rate[6]);
+
+/**
+ * @brief Fill the six conditions of a step from a named preset.
+ * @param step   its conditions are filled, the rest is untouched
+ * @param name   isotropic_compression, isotropic_extension, oedometer_loading, oedometer_unloading,
+ *               drained_triaxial_compression, drained_triaxial_extension,
+ *               undrained_triaxial_compression, undrained_triaxial_extension
+ * @param axis   0, 1, 2 for x, y, z (ignored by the isotropic presets)
+ * @param rate   > 0: size of the axial strain rate (isotropic: of the volumetric strain rate) [1/time]
+ */
+hypofab_status hypofab_step_preset(hypofab_step *step, const char *name, int axis, double rate);
+
+/** Name of preset number index (0-based), NULL past the last one. */
+const char *hypofab_preset_name(int index);
+
+/** One line of documentation of preset number index, NULL past the last one. */
+const char *hypofab_preset_description(int index);
+
+/** One result row: the quantities, and the step (0-based) the row belongs to. */
+typedef struct hypofab_row {
+  double value[HYPOFAB_N_QUANTITIES];
+  int step;
+} hypofab_row;
+
+/** Receives rows as they are computed. A non-zero return stops the test with HYPOFAB_INTERRUPTED. */
+typedef int (*hypofab_row_sink)(const hypofab_row *row, void *user);
+
+/** Integrators of an element test. */
+typedef enum hypofab_integrator { HYPOFAB_ERK = 0 } hypofab_integrator;
+
+/** Options of an element test; zero in a field takes its default. */
+typedef struct hypofab_test_options {
+  hypofab_integrator integrator;
+  double tolerance; /**< relative tolerance of the integrator; default 1e-8 */
+  long max_steps;   /**< integrator steps per step of the test; default 1000000 */
+} hypofab_test_options;
+
+/** How an element test ended. */
+typedef struct hypofab_test_outcome {
+  hypofab_status status;
+  int step;            /**< step in which it ended, 0-based */
+  hypofab_row last;    /**< the last state reached */
+  hypofab_state state; /**< the same as a state */
+  long integrator_steps, evaluations;
+} hypofab_test_outcome;
+
+/**
+ * @brief Run an element test.
+ * @param material parameters
+ * @param initial  state at time 0; strain counts from here
+ * @param steps    n_steps of them, run in sequence
+ * @param options  NULL for the defaults
+ * @param sink     receives the rows: the initial state, then those each step asks for, each step's end included
+ * @param user     handed to sink
+ * @param outcome  filled, also when the test stops early; NULL when not wanted
+ * @return outcome->status: 0 when every step met its end; 1..99 when it stopped early (rows so far were delivered)
+ */
+hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_state *initial,
+                                const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
+                                hypofab_row_sink sink, void *user, hypofab_test_outcome *outcome);
+
+/* ---------------------------------------------------------------- envelope */
+
+/** One strain-rate probe in the axisymmetric plane and its response. */
+typedef struct hypofab_probe {
+  double angle;         /**< [deg] axial part cos(angle), lateral parts sin(angle)/sqrt(2) each */
+  double stretching[6]; /**< unit strain rate (or the direction of the strain increment) */
+  double response[6];   /**< stress rate; for a finite probe the stress increment over the size of the strain increment */
+} hypofab_probe;
+
+/**
+ * @brief Response envelope (Gudehus 1979): unit strain-rate probes in the axisymmetric plane of one state.
+ * @param material parameters (m_R <= 0.5: without intergranular strain)
+ * @param state    the state probed
+ * @param axis     0, 1, 2: the axis of symmetry x, y, z
+ * @param size     0: rates; > 0: finite strain increments of this Frobenius norm
+ * @param n        number of probes, angle_k = 360 deg k/n
+ * @param probes   n entries, filled
+ */
+hypofab_status hypofab_envelope(const hypofab_material *material, const hypofab_state *state, int axis, double size,
+                                int n, hypofab_probe *probes);
+
+/* ------------------------------------------------------------ fabric2delta */
+
+/** Contact fabric of a sample (paper 000, Eqs. 1 to 4). */
+typedef struct hypofab_fabric {
+  int64_t contacts;  /**< N_c; 0 when the fabric tensor itself was given */
+  int64_t particles; /**< N_p; 0 when not known */
+  double fabric[6];            /**< N = (1/N_c) sum n n */
+  double deviatoric_fabric[6]; /**< F = 15/2 (N - 1/3 1) */
+  double anisotropy;           /**< a = sqrt(3/2 F:F) */
+  double principal_values[3];  /**< of N, largest first */
+  double principal_directions[3][3]; /**< row i: unit vector of principal_values[i] */
+  double coordination_number;  /**< 2 N_c/N_p; NaN when not known */
+  double mechanical_coordination_number; /**< (2 N_c - N_1)/(N_p - N_0 - N_1): without particles that have
+                                              fewer than two contacts (Thornton 2000); NaN when not known */
+} hypofab_fabric;
+
+/** Where the data stand in a contact list. NULL or 0 in a field takes its default. */
+typedef struct hypofab_contact_format {
+  const char *id1, *id2, *nx, *ny, *nz; /**< column names, or 1-based column numbers as text; default: these names */
+  char separator;    /**< ',' ';' '\t', or 0: blanks and tabs, or commas when the header has commas */
+  int64_t particles; /**< N_p; 0: the particle file if given, else the number of different ids in the list */
+  const char *particle_file; /**< particle list: one row per particle; column "id" when it has a header */
+} hypofab_contact_format;
+
+/**
+ * @brief Fabric of a contact list: text, plain or gzip, streamed.
+ * @param path   the file
+ * @param format NULL for the defaults
+ * @param fabric filled
+ * @return HYPOFAB_BAD_FILE with file, line, column and what was expected in the message
+ */
+hypofab_status hypofab_fabric_read(const char *path, const hypofab_contact_format *format, hypofab_fabric *fabric);
+
+/** Fabric from a given fabric tensor N (trace 1 within 0.02, positive semi-definite). */
+hypofab_status hypofab_fabric_from_tensor(const double N[6], hypofab_fabric *fabric);
+
+/** Initial intergranular strain of a fabric (paper 000, Eqs. 6 and 7). */
+typedef struct hypofab_initial_delta {
+  double weight;             /**< f(a) = 1 - exp(-a/c) */
+  double weighted_fabric[6]; /**< A = (1 - f) 1 + f F */
+  double delta[6];           /**< R A/|A| */
+} hypofab_initial_delta;
+
+/**
+ * @brief Map a fabric to the initial intergranular strain.
+ * @param R  size of the elastic strain range, > 0
+ * @param c  parameter of the weight function, > 0 (0.05 in paper 000)
+ */
+hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c,
+                                       hypofab_initial_delta *result);
+
+/* -------------------------------------------------------------------- deck */
+
+/** A validated deck: materials, states, tests and envelopes. */
+typedef struct hypofab_study hypofab_study;
+
+/**
+ * @brief Read and validate a deck, contact lists it refers to included (relative to the deck).
+ * @param path  YAML file (docs/deck.md)
+ * @param study set to a new study, to be freed with hypofab_study_free; NULL on failure
+ * @return HYPOFAB_BAD_FILE and others below 200; the message names file, line, key, value and what was expected
+ */
+hypofab_status hypofab_study_load(const char *path, hypofab_study **study);
+
+/** Free a study; NULL is allowed. */
+void hypofab_study_free(hypofab_study *study);
+
+/** Number of tests and envelopes in a study, and their names (NULL past the last one). */
+int hypofab_study_test_count(const hypofab_study *study);
+int hypofab_study_envelope_count(const hypofab_study *study);
+const char *hypofab_study_test_name(const hypofab_study *study, int index);
+const char *hypofab_study_envelope_name(const hypofab_study *study, int index);
+
+/** Told how far a run is: what is being computed and the fraction done. Non-zero asks to stop. */
+typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
+
+/**
+ * @brief Run every test of a study and write DIR/<test>.csv each and DIR/summary.json.
+ * @param study     a loaded study
+ * @param directory created when missing; files appear whole or not at all
+ * @param progress  may be NULL
+ * @return 0; 1..99 when a test stopped early (the first such status; everything is written and says so);
+ *         HYPOFAB_IO_ERROR
+ */
+hypofab_status hypofab_study_run(const hypofab_study *study, const char *directory, hypofab_progress progress,
+                                 void *user);
+
+/** Compute every envelope of a study and write DIR/<envelope>.csv each. Arguments as hypofab_study_run. */
+hypofab_status hypofab_study_envelopes(const hypofab_study *study, const char *directory, hypofab_progress progress,
+                                       void *user);
+
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+#endif
