@@ -1,2 +1,35 @@
-# Install rules, pkg-config files and the CMake package `hypofab`.
+# Install rules: libraries, program, header, Fortran modules, pkg-config files and the CMake package `hypofab`.
+# Nothing installed holds an absolute path: the tree may be moved after installation.
 include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hypofab)
+set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# The program finds libhypofab beside itself.
+file(RELATIVE_PATH lib_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+set_target_properties(hypofab_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+
+install(
+  TARGETS hypofab hypofab_umat
+  EXPORT hypofab
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS hypofab_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES include/hypofab.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${CMAKE_BINARY_DIR}/modules/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hypofab
+        FILES_MATCHING PATTERN *.mod)
+
+# CMake: find_package(hypofab) gives hypofab::hypofab (C interface) and hypofab::umat (FE hosts).
+install(EXPORT hypofab FILE hypofab-config.cmake NAMESPACE hypofab:: DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hypofab-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/hypofab-config-version.cmake DESTINATION ${package_dir})
+
+# pkg-config: hypofab and hypofab_umat. The prefix is found from the folder of the .pc file.
+file(RELATIVE_PATH prefix_from_pkgconfig /${pkgconfig_dir} /)
+function(hypofab_install_pkgconfig name description)
+  set(PKGCONFIG_NAME ${name})
+  set(PKGCONFIG_DESCRIPTION ${description})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/pkgconfig.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_dir})
+endfunction()
+hypofab_install_pkgconfig(hypofab ${PROJECT_DESCRIPTION})
+hypofab_install_pkgconfig(hypofab_umat "UMAT of hypofab for finite element hosts")
