@@ -1,0 +1,75 @@
+"""Command line: `python -m hypofab stiffness ...` prints a table, `python -m hypofab plot ...` draws figures."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from hypofab import figures, stiffness
+from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
+
+
+def labelled_directory(text: str) -> tuple[str, Path]:
+    """Parse LABEL=DIR, or DIR with its last part as the label."""
+    label, separator, directory = text.rpartition("=")
+    return (label, Path(directory)) if separator else (Path(text).name, Path(text))
+
+
+def save(figure: Figure, stem: Path) -> None:
+    """Write a figure as PNG and PDF and print the file names. No date is stored: equal data give equal files."""
+    for suffix, metadata in ((".png", {}), (".pdf", {"CreationDate": None})):
+        path = stem.with_name(stem.name + suffix)
+        figure.savefig(path, dpi=200, metadata=metadata)
+        print(path)
+
+
+def plot(directory: Path, *, zoom: float | None, compression_positive: bool) -> None:
+    """Draw the figures of every test and envelope found in a folder of results, beside the CSV files."""
+    has_tests = (directory / "summary.json").exists()
+    envelopes = find_envelopes(directory)
+    if not has_tests and not envelopes:
+        raise ResultError(f"{directory}: neither a summary.json of `hypofab run` nor a file of `hypofab envelope`")
+    if has_tests:
+        tests = read_run(directory)
+        save(figures.stress_strain(tests, zoom=zoom), directory / "stress_strain")
+        save(figures.volumetric(tests, compression_positive=compression_positive), directory / "volumetric")
+    for path in envelopes:
+        figure = figures.response_envelopes(read_envelope(path), compression_positive=compression_positive)
+        save(figure, path.with_suffix(""))
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line's parser."""
+    top = argparse.ArgumentParser(prog="python -m hypofab", description="Tables and figures from results of hypofab.")
+    commands = top.add_subparsers(dest="command", required=True)
+
+    table = commands.add_parser("stiffness", help="table of secant stiffnesses beside those of paper 000, Table 4")
+    table.add_argument("runs", nargs="+", metavar="[LABEL=]DIR", type=labelled_directory, help="results of hypofab run")
+
+    draw = commands.add_parser("plot", help="figures as PNG and PDF, written beside the results")
+    draw.add_argument("directories", nargs="+", metavar="DIR", type=Path, help="results of hypofab run or envelope")
+    draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
+    draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
+    return top
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command; 0 when done, 2 when a result file is missing or wrong."""
+    options = parser().parse_args(arguments)
+    try:
+        if options.command == "stiffness":
+            columns = {label: stiffness.secant_stiffness(directory) for label, directory in options.runs}
+            print(stiffness.table(columns | stiffness.REFERENCES))
+        else:
+            zoom = None if options.zoom is None else options.zoom / 100
+            for directory in options.directories:
+                plot(directory, zoom=zoom, compression_positive=options.compression_positive)
+    except ResultError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

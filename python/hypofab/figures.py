@@ -1,0 +1,160 @@
+"""Figures of element tests and response envelopes. Each function returns a matplotlib Figure and shows nothing.
+
+Lines differ in colour, width and dashes, so that they stay apart in grey print and where two of them coincide.
+"""
+
+from collections.abc import Sequence
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from hypofab.results import EnvelopeSeries, TestResult
+
+STYLE = {
+    "font.family": "sans-serif",
+    "font.size": 9,
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "grid.color": "0.88",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "legend.frameon": False,
+    "lines.solid_capstyle": "round",
+    "mathtext.fontset": "dejavusans",
+    "axes.unicode_minus": True,
+}
+
+LINES = (
+    {"color": "#000000", "linestyle": "-", "linewidth": 1.4},
+    {"color": "#D55E00", "linestyle": (0, (5, 2)), "linewidth": 1.6},
+    {"color": "#7FBFE8", "linestyle": "-", "linewidth": 3.2, "zorder": 1.9},
+    {"color": "#00508C", "linestyle": (0, (1, 1.6)), "linewidth": 1.6},
+    {"color": "#009E73", "linestyle": (0, (6, 1.5, 1, 1.5)), "linewidth": 1.5},
+    {"color": "#AA3377", "linestyle": (0, (3, 1, 1, 1, 1, 1)), "linewidth": 1.5},
+)
+"""Line styles in the order of use; the wide light line shows beside a dark one drawn on top of it."""
+
+INCH = 25.4  # mm
+COLUMN = (120 / INCH, 90 / INCH)
+"""Size of a figure [inch]: readable when printed across one column and a half."""
+
+
+def line_style(index: int) -> dict:
+    """Line style number index; they repeat after the last one."""
+    return dict(LINES[index % len(LINES)])
+
+
+def _legend(figure: Figure, axes: Axes, columns: int) -> None:
+    """A legend above the axes, where it covers no data."""
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=columns, handlelength=2.8)
+
+
+def stress_strain(tests: Sequence[TestResult], *, zoom: float | None = None, stress_unit: str = "kPa") -> Figure:
+    """Deviatoric stress q over deviatoric strain eps_q (paper 000, Figure 7).
+
+    zoom: an inset shows eps_q from 0 to this value [-], e.g. 1e-3; None: no inset.
+    """
+    with rc_context(STYLE):
+        figure = Figure(figsize=COLUMN, layout="constrained")
+        axes = figure.add_subplot()
+        for index, test in enumerate(tests):
+            axes.plot(100 * test.eps_q, test.q, label=test.name, **line_style(index))
+        axes.set(xlabel=r"deviatoric strain $\varepsilon_q$ [%]", ylabel=rf"deviatoric stress $q$ [{stress_unit}]")
+        axes.set_xlim(left=0)
+        axes.set_ylim(bottom=0)
+        if zoom is not None:
+            _zoom_inset(axes, tests, zoom)
+        _legend(figure, axes, columns=4)
+        return figure
+
+
+def _zoom_inset(axes: Axes, tests: Sequence[TestResult], zoom: float) -> None:
+    """An inset in the lower right of the axes with eps_q from 0 to zoom."""
+    inset = axes.inset_axes((0.40, 0.14, 0.56, 0.50))
+    top = 0.0
+    for index, test in enumerate(tests):
+        shown = test.eps_q <= zoom * (1 + 1e-9)
+        top = max(top, test.q[shown].max(initial=0.0))
+        inset.plot(100 * test.eps_q, test.q, **line_style(index))
+    inset.set_xlim(0, 100 * zoom)
+    inset.set_ylim(0, 1.05 * top if top > 0 else None)
+    inset.tick_params(labelsize=7)
+    inset.locator_params(nbins=5)
+
+
+def volumetric(
+    tests: Sequence[TestResult], *, compression_positive: bool = False, file_compression_positive: bool = False
+) -> Figure:
+    """Volumetric strain eps_v over deviatoric strain eps_q (paper 000, Figure 8).
+
+    compression_positive: sign of eps_v in the figure; file_compression_positive: that of the results.
+    """
+    sign = 1 if compression_positive == file_compression_positive else -1
+    meaning = "contraction" if compression_positive else "dilation"
+    with rc_context(STYLE):
+        figure = Figure(figsize=COLUMN, layout="constrained")
+        axes = figure.add_subplot()
+        axes.axhline(0, color="0.4", linewidth=0.8)
+        for index, test in enumerate(tests):
+            axes.plot(100 * test.eps_q, 100 * sign * test.eps_v, label=test.name, **line_style(index))
+        axes.set(
+            xlabel=r"deviatoric strain $\varepsilon_q$ [%]",
+            ylabel=rf"volumetric strain $\varepsilon_v$ [%] ({meaning} positive)",
+        )
+        axes.set_xlim(left=0)
+        _legend(figure, axes, columns=4)
+        return figure
+
+
+def _arrow(axes: Axes, x: float, y: float, *, length: float, style: dict) -> None:
+    """An arrow of the given length from the origin along (x, y), marked as delta; none for a vanishing vector."""
+    size = (x**2 + y**2) ** 0.5
+    if size == 0:
+        return
+    tip = (length * x / size, length * y / size)
+    arrow = {"arrowstyle": "-|>", "color": style["color"], "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0, "zorder": 3}
+    axes.annotate("", xy=tip, xytext=(0, 0), arrowprops=arrow)
+    offset = (9 * x / size, 9 * y / size)
+    axes.annotate(
+        r"$\boldsymbol{\delta}$", tip, offset, textcoords="offset points", ha="center", va="center", color="black"
+    )
+
+
+def response_envelopes(
+    series: Sequence[EnvelopeSeries],
+    *,
+    compression_positive: bool = False,
+    file_compression_positive: bool = False,
+    stress_unit: str = "kPa",
+) -> Figure:
+    """Response envelopes around the stress T0 in the axisymmetric plane (paper 000, Figure 1).
+
+    The plane is isometric: sqrt(2) times the lateral over the axial stress rate, both per unit strain rate. An arrow in
+    the line's colour shows the direction of the intergranular strain of each state that has one.
+    """
+    sign = 1 if compression_positive == file_compression_positive else -1
+    factor, unit = (1e-3, "MPa") if stress_unit == "kPa" else (1.0, stress_unit)
+    with rc_context(STYLE):
+        figure = Figure(figsize=(110 / INCH, 115 / INCH), layout="constrained")
+        axes = figure.add_subplot()
+        axes.axhline(0, color="0.55", linewidth=0.8)
+        axes.axvline(0, color="0.55", linewidth=0.8)
+        reach = max(float((s.axial**2 + s.lateral**2).max()) for s in series) ** 0.5 * factor
+        for index, state in enumerate(series):
+            lateral, axial = (sign * factor * values for values in (state.lateral, state.axial))
+            closed = [*range(len(axial)), 0]
+            axes.plot(lateral[closed], axial[closed], label=state.name, **line_style(index))
+            _arrow(axes, sign * state.delta[1], sign * state.delta[0], length=0.5 * reach, style=line_style(index))
+        axes.plot(0, 0, marker="o", markersize=4, color="black")
+        axes.annotate(r"$\mathbf{T}_0$", xy=(0, 0), xytext=(5, -12), textcoords="offset points")
+        axes.set_aspect("equal", adjustable="datalim")
+        convention = "compression" if compression_positive else "tension"
+        axes.set(
+            xlabel=rf"$\sqrt{{2}}\,\dot{{T}}_\mathrm{{lateral}}/|\mathbf{{D}}|$ [{unit}] ({convention} positive)",
+            ylabel=rf"$\dot{{T}}_\mathrm{{axial}}/|\mathbf{{D}}|$ [{unit}] ({convention} positive)",
+        )
+        _legend(figure, axes, columns=min(3, len(series)))
+        return figure
