@@ -199,6 +199,9 @@ hypofab_status hypofab_update(const hypofab_material *material, const hypofab_up
                               hypofab_state *state, const double strain[6], double tangent[36],
                               hypofab_update_report *report);
 
+/** Mobilised friction angle asin((s1 - s3)/(s1 + s3)) of a stress [deg]; 90 where it is not defined. */
+double hypofab_friction_angle(const double stress[6]);
+
 /* ------------------------------------------------------------ element test */
 
 /** Output quantities: the columns of a result row, and what a step's end and row spacing may refer to. */

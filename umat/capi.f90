@@ -1,0 +1,269 @@
+!> The C face of the constitutive model: the procedures of hypofab.h, sections material, state and constitutive.
+!>
+!> Purposes, arguments and errors are documented in hypofab.h. A hypofab_material is sixteen doubles in the order of
+!> PROPS, a hypofab_state thirteen doubles: stress, delta, void ratio.
+module hypofab_capi
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_ptr, c_loc, c_f_pointer, c_associated, c_null_char
+  use hypofab_material, only: material_type, material_from_props, check_props, parameters, parameter_type, n_parameters
+  use hypofab_rate, only: state_type, state_rate, choose_branch, linear_parts
+  use hypofab_sands, only: sands, sand_type, n_sands, find_sand
+  use hypofab_status
+  use hypofab_tensor, only: norm, friction_angle
+  use hypofab_update, only: options_type, report_type, update_state
+  use hypofab_wolffersdorff, only: in_domain
+  implicit none
+  private
+
+  !> hypofab_parameter_info
+  type, bind(C) :: c_parameter_info
+    type(c_ptr) :: name, unit, description
+    real(c_double) :: lower, upper
+  end type c_parameter_info
+
+  !> hypofab_sand_info
+  type, bind(C) :: c_sand_info
+    type(c_ptr) :: name, description, source
+  end type c_sand_info
+
+  !> hypofab_state
+  type, bind(C) :: c_state
+    real(c_double) :: stress(6), delta(6), void_ratio
+  end type c_state
+
+  !> hypofab_update_options
+  type, bind(C) :: c_update_options
+    real(c_double) :: tolerance
+    integer(c_int) :: max_evaluations
+  end type c_update_options
+
+  !> hypofab_update_report
+  type, bind(C) :: c_update_report
+    integer(c_int) :: evaluations, branch
+    real(c_double) :: substep
+  end type c_update_report
+
+  ! C wants addresses of the tables' texts; these copies never change.
+  type(parameter_type), target, protected :: parameter_table(n_parameters) = parameters
+  type(sand_type), target, protected :: sand_table(n_sands) = sands
+
+  character(len=*), parameter :: domain_message = 'a principal stress became tensile or zero, or the void ratio left (0, inf)'
+
+  interface
+    !> base/message.h
+    subroutine set_message(text, length) bind(C, name='hypofab_set_message')
+      import :: c_char, c_int
+      character(kind=c_char), intent(in) :: text(*)
+      integer(c_int), value :: length
+    end subroutine set_message
+  end interface
+
+contains
+
+  function parameter_describe(index, info) result(status) bind(C, name='hypofab_parameter_describe')
+    integer(c_int), value :: index
+    type(c_parameter_info), intent(out) :: info
+    integer(c_int) :: status
+    if (index < 0 .or. index >= n_parameters) then
+      status = fail_number(status_bad_argument, 'parameter', index, n_parameters)
+      return
+    end if
+    associate (p => parameter_table(index + 1))
+      info = c_parameter_info(c_loc(p%name), c_loc(p%unit), c_loc(p%description), p%lower, p%upper)
+    end associate
+    status = status_ok
+  end function parameter_describe
+
+  pure function sand_count() result(count) bind(C, name='hypofab_sand_count')
+    integer(c_int) :: count
+    count = n_sands
+  end function sand_count
+
+  function sand_describe(index, info) result(status) bind(C, name='hypofab_sand_describe')
+    integer(c_int), value :: index
+    type(c_sand_info), intent(out) :: info
+    integer(c_int) :: status
+    if (index < 0 .or. index >= n_sands) then
+      status = fail_number(status_bad_argument, 'sand', index, n_sands)
+      return
+    end if
+    associate (s => sand_table(index + 1))
+      info = c_sand_info(c_loc(s%name), c_loc(s%description), c_loc(s%source))
+    end associate
+    status = status_ok
+  end function sand_describe
+
+  function sand(name, props) result(status) bind(C, name='hypofab_sand')
+    character(kind=c_char), intent(in) :: name(*)
+    real(c_double), intent(inout) :: props(n_parameters)
+    integer(c_int) :: status
+    character(len=:), allocatable :: wanted, known
+    integer :: i
+
+    wanted = ''
+    do i = 1, len(sands(1)%name)
+      if (name(i) == c_null_char) exit
+      wanted = wanted//name(i)
+    end do
+    i = find_sand(wanted)
+    if (i > 0) then
+      props = sands(i)%props
+      status = status_ok
+    else
+      known = ''
+      do i = 1, n_sands
+        known = known//' '//sands(i)%name(:index(sands(i)%name, c_null_char) - 1)
+      end do
+      status = fail(status_bad_material, 'there is no sand "'//wanted//'", expected one of:'//known)
+    end if
+  end function sand
+
+  function material_check(props) result(status) bind(C, name='hypofab_material_check')
+    real(c_double), intent(in) :: props(n_parameters)
+    integer(c_int) :: status
+    character(len=256) :: message
+    call check_props(props, status, message)
+    if (status /= status_ok) status = fail(status, trim(message))
+  end function material_check
+
+  function state_check(props, state) result(status) bind(C, name='hypofab_state_check')
+    real(c_double), intent(in) :: props(n_parameters)
+    type(c_state), intent(in) :: state
+    integer(c_int) :: status
+    type(material_type) :: m
+    character(len=24) :: value, bound
+    ! A hair of rounding above |delta| = R is forgiven.
+    real(c_double), parameter :: slack = 1.0e-9_c_double
+
+    status = material_check(props)
+    if (status /= status_ok) return
+    m = material_from_props(props)
+    if (.not. all(ieee_is_finite(state%stress))) then
+      status = fail(status_bad_state, 'stress is not finite')
+    else if (.not. all(ieee_is_finite(state%delta))) then
+      status = fail(status_bad_state, 'delta is not finite')
+    else if (.not. (ieee_is_finite(state%void_ratio) .and. state%void_ratio > 0.0_c_double)) then
+      write (value, '(g0.6)') state%void_ratio
+      status = fail(status_bad_state, 'void_ratio = '//trim(value)//' is not admissible, expected void_ratio > 0')
+    else if (.not. in_domain(m, state%stress, state%void_ratio)) then
+      status = fail(status_bad_state, 'stress has a tensile or zero principal value, expected all three compressive'// &
+                    merge(' (of T - p_t 1)', '               ', m%p_t > 0.0_c_double))
+    else if (m%intergranular .and. norm(state%delta) > m%R * (1.0_c_double + slack)) then
+      write (value, '(g0.6)') norm(state%delta)
+      write (bound, '(g0.6)') m%R
+      status = fail(status_bad_state, '|delta| = '//trim(value)//' is not admissible, expected |delta| <= R = '// &
+                    trim(bound))
+    end if
+  end function state_check
+
+  function rate(props, state, stretching, state_rate_out, branch) result(status) bind(C, name='hypofab_rate')
+    real(c_double), intent(in) :: props(n_parameters), stretching(6)
+    type(c_state), intent(in) :: state
+    type(c_state), intent(inout) :: state_rate_out
+    integer(c_int), intent(inout), optional :: branch
+    integer(c_int) :: status
+    type(material_type) :: m
+    type(state_type) :: r
+    integer :: taken
+
+    m = material_from_props(props)
+    taken = choose_branch(m, state%delta, stretching)
+    call state_rate(m, state_type(state%stress, state%delta, state%void_ratio), stretching, taken, r, status)
+    if (status /= status_ok) then
+      status = fail(status, domain_message)
+      return
+    end if
+    state_rate_out = c_state(r%stress, r%delta, r%void_ratio)
+    if (present(branch)) branch = taken
+  end function rate
+
+  function linear_parts_c(props, state, reversal, jump, direction, branch) result(status) &
+    bind(C, name='hypofab_linear_parts')
+    real(c_double), intent(in) :: props(n_parameters)
+    type(c_state), intent(in) :: state
+    real(c_double), intent(inout) :: reversal(6, 6), jump(6), direction(6)
+    integer(c_int), intent(inout) :: branch
+    integer(c_int) :: status
+    type(material_type) :: m
+    real(c_double) :: matrix(6, 6), vector(6), unit(6)
+
+    m = material_from_props(props)
+    call linear_parts(m, state_type(state%stress, state%delta, state%void_ratio), matrix, vector, unit, status)
+    if (status /= status_ok) then
+      status = fail(status, domain_message)
+      return
+    end if
+    reversal = transpose(matrix) ! C stores rows first
+    jump = vector
+    direction = unit
+    branch = merge(branch_loading, branch_plain, m%intergranular)
+  end function linear_parts_c
+
+  function update(props, options, state, strain, tangent, report) result(status) bind(C, name='hypofab_update')
+    real(c_double), intent(in) :: props(n_parameters), strain(6)
+    type(c_update_options), intent(in), optional :: options
+    type(c_state), intent(inout) :: state
+    real(c_double), intent(inout), optional :: tangent(6, 6)
+    type(c_update_report), intent(inout), optional :: report
+    integer(c_int) :: status
+    type(options_type) :: o
+    type(report_type) :: r
+    type(state_type) :: s
+    real(c_double) :: matrix(6, 6)
+
+    status = material_check(props)
+    if (status /= status_ok) return
+    if (present(options)) then
+      if (options%tolerance > 0.0_c_double) o%tolerance = options%tolerance
+      if (options%max_evaluations > 0) o%max_evaluations = options%max_evaluations
+    end if
+    s = state_type(state%stress, state%delta, state%void_ratio)
+    if (present(tangent)) then
+      call update_state(material_from_props(props), o, s, strain, r, status, matrix)
+    else
+      call update_state(material_from_props(props), o, s, strain, r, status)
+    end if
+    if (present(report)) report = c_update_report(r%evaluations, r%branch, r%substep)
+    select case (status)
+    case (status_ok)
+      state = c_state(s%stress, s%delta, s%void_ratio)
+      if (present(tangent)) tangent = transpose(matrix)
+    case (status_bad_argument)
+      status = fail(status, 'strain increment is not finite or above 1, expected six finite numbers up to 1')
+    case (status_bad_state)
+      status = fail(status, 'state is not finite, expected finite stress, delta and void_ratio')
+    case (status_step_limit)
+      status = fail(status, 'the bound on rate evaluations was reached before the end of the strain increment')
+    case default
+      status = fail(status, domain_message)
+    end select
+  end function update
+
+  pure function friction_angle_c(stress) result(phi) bind(C, name='hypofab_friction_angle')
+    real(c_double), intent(in) :: stress(6)
+    real(c_double) :: phi
+    phi = friction_angle(stress)
+  end function friction_angle_c
+
+  !> Keep a message for hypofab_last_message and return the status.
+  function fail(status, message) result(same)
+    integer, intent(in) :: status
+    character(len=*), intent(in) :: message
+    integer(c_int) :: same
+    call set_message(message, len(message, c_int))
+    same = int(status, c_int)
+  end function fail
+
+  !> The same for a number outside 0 .. n-1.
+  function fail_number(status, what, number, n) result(same)
+    integer, intent(in) :: status, n
+    character(len=*), intent(in) :: what
+    integer(c_int), intent(in) :: number
+    integer(c_int) :: same
+    character(len=12) :: given, last
+    write (given, '(i0)') number
+    write (last, '(i0)') n - 1
+    same = fail(status, what//' number '//trim(given)//' does not exist, expected 0 to '//trim(last))
+  end function fail_number
+
+end module hypofab_capi

@@ -1,0 +1,91 @@
+!> Intergranular strain of Niemunis and Herle (1997): the stiffness M and the rate of delta from L, N, delta and the
+!> branch.
+!>
+!> Both branches of theory.md Eq. (13) share one form,
+!>   Tdot = scale L:D + turn (deltahat:D),
+!> where scale = rho^chi m_T + (1 - rho^chi) m_R and turn is, for
+!>   delta:D >  0: rho^chi (1 - m_T) L:deltahat + rho^chi N   (loading)
+!>   delta:D <= 0: rho^chi (m_R - m_T) L:deltahat             (reversal)
+module hypofab_intergranular
+  use hypofab_kinds, only: wp
+  use hypofab_material, only: material_type
+  use hypofab_status, only: branch_loading, branch_reversal
+  use hypofab_tensor, only: ddot, norm
+  use hypofab_wolffersdorff, only: hypoplastic_type, apply_L
+  implicit none
+  private
+  public :: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, delta_rate
+
+  !> Direction and mobilisation of delta.
+  type :: intergranular_type
+    real(wp) :: direction(6) !< deltahat; zero for delta = 0
+    real(wp) :: rho !< |delta|/R
+    real(wp) :: rho_chi !< rho^chi
+  end type intergranular_type
+
+contains
+
+  !> Direction and mobilisation of delta.
+  pure function intergranular_direction(m, delta) result(g)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: delta(6)
+    type(intergranular_type) :: g
+    real(wp) :: size
+    size = norm(delta)
+    if (size > 0.0_wp) then
+      g%direction = delta / size
+      g%rho = size / m%R
+      g%rho_chi = g%rho**m%chi
+    else
+      g = intergranular_type(0.0_wp, 0.0_wp, 0.0_wp)
+    end if
+  end function intergranular_direction
+
+  !> The branch that a stretching takes. delta = 0 counts as loading: delta grows along D at once.
+  pure function branch_of(g, stretching) result(branch)
+    type(intergranular_type), intent(in) :: g
+    real(wp), intent(in) :: stretching(6)
+    integer :: branch
+    if (ddot(g%direction, stretching) > 0.0_wp .or. .not. g%rho > 0.0_wp) then
+      branch = branch_loading
+    else
+      branch = branch_reversal
+    end if
+  end function branch_of
+
+  !> Factor of L:D, common to both branches.
+  pure function scale_of(m, g) result(scale)
+    type(material_type), intent(in) :: m
+    type(intergranular_type), intent(in) :: g
+    real(wp) :: scale
+    scale = g%rho_chi * m%m_T + (1.0_wp - g%rho_chi) * m%m_R
+  end function scale_of
+
+  !> Factor of deltahat:D on a branch [stress].
+  pure function turn_of(m, h, g, branch) result(turn)
+    type(material_type), intent(in) :: m
+    type(hypoplastic_type), intent(in) :: h
+    type(intergranular_type), intent(in) :: g
+    integer, intent(in) :: branch
+    real(wp) :: turn(6)
+    if (branch == branch_loading) then
+      turn = g%rho_chi * ((1.0_wp - m%m_T) * apply_L(h, g%direction) + h%N)
+    else
+      turn = g%rho_chi * (m%m_R - m%m_T) * apply_L(h, g%direction)
+    end if
+  end function turn_of
+
+  !> Rate of delta on a branch [1/time]; theory.md Eq. (14).
+  pure function delta_rate(m, g, stretching, branch) result(rate)
+    type(material_type), intent(in) :: m
+    type(intergranular_type), intent(in) :: g
+    real(wp), intent(in) :: stretching(6)
+    integer, intent(in) :: branch
+    real(wp) :: rate(6)
+    rate = stretching
+    if (branch == branch_loading .and. g%rho > 0.0_wp) then
+      rate = rate - g%rho**m%beta_r * ddot(g%direction, stretching) * g%direction
+    end if
+  end function delta_rate
+
+end module hypofab_intergranular

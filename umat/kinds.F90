@@ -1,0 +1,14 @@
+!> The working precision of the constitutive model.
+!>
+!> Double precision; the tests compile the same sources in quadruple precision (HYPOFAB_QUADRUPLE) to check derivatives
+!> and rounding against a more exact arithmetic.
+module hypofab_kinds
+  use, intrinsic :: iso_fortran_env, only: real64, real128
+  implicit none
+  private
+#ifdef HYPOFAB_QUADRUPLE
+  integer, parameter, public :: wp = real128
+#else
+  integer, parameter, public :: wp = real64
+#endif
+end module hypofab_kinds

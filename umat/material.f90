@@ -1,0 +1,179 @@
+!> Material parameters: names, order, units, bounds and validation, in this one place.
+!>
+!> The order is that of PROPS(1..16) of the UMAT and of hypofab_material in hypofab.h.
+module hypofab_material
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use hypofab_kinds, only: wp
+  use hypofab_status, only: status_ok, status_bad_material
+  implicit none
+  private
+  public :: material_type, parameter_type, material_from_props, check_props
+
+  !> Number of parameters.
+  integer, parameter, public :: n_parameters = 16
+
+  !> Positions in PROPS.
+  integer, parameter, public :: i_phi_c = 1, i_p_t = 2, i_h_s = 3, i_n = 4, i_e_d0 = 5, i_e_c0 = 6, i_e_i0 = 7
+  integer, parameter, public :: i_alpha = 8, i_beta = 9, i_m_R = 10, i_m_T = 11, i_R = 12, i_beta_r = 13, i_chi = 14
+  integer, parameter, public :: i_K_w = 15, i_e_0 = 16
+
+  !> One row of the parameter table. Texts end with a null character for C.
+  type :: parameter_type
+    character(len=8) :: name
+    character(len=8) :: unit
+    character(len=96) :: description
+    real(wp) :: lower !< admissible values: lower <= x <= upper
+    real(wp) :: upper
+    logical :: intergranular !< checked only when the intergranular strain is on
+  end type parameter_type
+
+  character, parameter :: nul = achar(0)
+  real(wp), parameter :: big = 1.0e30_wp
+
+  !> The parameter table.
+  type(parameter_type), parameter, public :: parameters(n_parameters) = [ &
+    parameter_type('phi_c'//nul, 'deg'//nul, 'critical friction angle'//nul, 1.0_wp, 60.0_wp, .false.), &
+    parameter_type('p_t'//nul, 'stress'//nul, 'shift of stress: the model sees T - p_t 1'//nul, 0.0_wp, big, .false.), &
+    parameter_type('h_s'//nul, 'stress'//nul, 'granular hardness'//nul, 1.0e-6_wp, big, .false.), &
+    parameter_type('n'//nul, '-'//nul, 'exponent of the compression law'//nul, 0.01_wp, 1.0_wp, .false.), &
+    parameter_type('e_d0'//nul, '-'//nul, 'void ratio of the densest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
+    parameter_type('e_c0'//nul, '-'//nul, 'critical void ratio at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
+    parameter_type('e_i0'//nul, '-'//nul, 'void ratio of the loosest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
+    parameter_type('alpha'//nul, '-'//nul, 'exponent of the density factor f_d'//nul, 0.0_wp, 5.0_wp, .false.), &
+    parameter_type('beta'//nul, '-'//nul, 'exponent of the density factor f_e'//nul, 0.0_wp, 10.0_wp, .false.), &
+    parameter_type('m_R'//nul, '-'//nul, 'stiffness factor at reversal; <= 0.5: no intergranular strain'//nul, &
+                   0.0_wp, 100.0_wp, .false.), &
+    parameter_type('m_T'//nul, '-'//nul, 'stiffness factor at a 90 degree turn'//nul, 0.1_wp, 100.0_wp, .true.), &
+    parameter_type('R'//nul, '-'//nul, 'size of the elastic strain range, largest |delta|'//nul, &
+                   1.0e-8_wp, 0.1_wp, .true.), &
+    parameter_type('beta_r'//nul, '-'//nul, 'exponent of the evolution of delta'//nul, 1.0e-3_wp, 20.0_wp, .true.), &
+    parameter_type('chi'//nul, '-'//nul, 'exponent of the interpolation in rho'//nul, 1.0e-3_wp, 100.0_wp, .true.), &
+    parameter_type('K_w'//nul, 'stress'//nul, 'bulk stiffness of pore water (UMAT only); 0: drained'//nul, &
+                   0.0_wp, big, .false.), &
+    parameter_type('e_0'//nul, '-'//nul, 'initial void ratio (UMAT only), see docs/umat.md'//nul, &
+                   -10.0_wp, 20.0_wp, .false.)]
+
+  !> Parameters and the constants that follow from them.
+  type :: material_type
+    real(wp) :: p_t, h_s, n, e_d0, e_c0, e_i0, alpha, beta, m_R, m_T, R, beta_r, chi, K_w, e_0
+    real(wp) :: a !< of the limit condition: sqrt(3) (3 - sin phi_c)/(2 sqrt(2) sin phi_c)
+    real(wp) :: f_b0 !< the part of f_b that does not depend on the state [stress]
+    logical :: intergranular !< is the intergranular strain on (m_R > 0.5)?
+  end type material_type
+
+contains
+
+  !> Material from checked parameters.
+  !> @param props the 16 parameters, admissible (check_props)
+  pure function material_from_props(props) result(m)
+    real(wp), intent(in) :: props(n_parameters)
+    type(material_type) :: m
+    m%p_t = props(i_p_t)
+    m%h_s = props(i_h_s)
+    m%n = props(i_n)
+    m%e_d0 = props(i_e_d0)
+    m%e_c0 = props(i_e_c0)
+    m%e_i0 = props(i_e_i0)
+    m%alpha = props(i_alpha)
+    m%beta = props(i_beta)
+    m%m_R = props(i_m_R)
+    m%m_T = props(i_m_T)
+    m%R = props(i_R)
+    m%beta_r = props(i_beta_r)
+    m%chi = props(i_chi)
+    m%K_w = props(i_K_w)
+    m%e_0 = props(i_e_0)
+    m%intergranular = intergranular_is_on(props)
+    m%a = limit_constant(props)
+    m%f_b0 = m%h_s / m%n * (m%e_i0 / m%e_c0)**m%beta / stiffness_bracket(props)
+  end function material_from_props
+
+  !> Are the parameters finite, within their bounds and consistent?
+  !> @param props   parameters in the order of PROPS
+  !> @param status  status_ok or status_bad_material
+  !> @param message names the parameter, its value and what was expected; '' when all is well
+  pure subroutine check_props(props, status, message)
+    real(wp), intent(in) :: props(n_parameters)
+    integer, intent(out) :: status
+    character(len=*), intent(out) :: message
+    integer :: i
+
+    status = status_bad_material
+    message = ''
+    do i = 1, n_parameters
+      if (parameters(i)%intergranular .and. .not. intergranular_is_on(props)) cycle
+      if (ieee_is_finite(props(i))) then ! before any comparison: one with NaN would trap
+        if (props(i) >= parameters(i)%lower .and. props(i) <= parameters(i)%upper) cycle
+      end if
+      message = name_of(i)//' = '//number(props(i))//' is not admissible, expected '//number(parameters(i)%lower)// &
+                ' <= '//name_of(i)//' <= '//number(parameters(i)%upper)
+      return
+    end do
+    if (props(i_e_d0) >= props(i_e_c0)) then
+      message = disagreement(i_e_d0, i_e_c0, 'e_d0 < e_c0')
+    else if (props(i_e_c0) > props(i_e_i0)) then
+      message = disagreement(i_e_c0, i_e_i0, 'e_c0 <= e_i0')
+    else if (stiffness_bracket(props) <= 0.0_wp) then
+      message = disagreement(i_phi_c, i_alpha, &
+                             '3 + a^2 - a sqrt(3) ((e_i0 - e_d0)/(e_c0 - e_d0))^alpha > 0 (stiffness would be negative)')
+    else
+      status = status_ok
+    end if
+
+  contains
+
+    !> What two parameters that contradict each other are to be.
+    pure function disagreement(first, second, expected) result(text)
+      integer, intent(in) :: first, second
+      character(len=*), intent(in) :: expected
+      character(len=:), allocatable :: text
+      text = name_of(first)//' = '//number(props(first))//' and '//name_of(second)//' = '//number(props(second))// &
+             ' contradict each other, expected '//expected
+    end function disagreement
+
+  end subroutine check_props
+
+  !> A number as text for a message.
+  pure function number(x) result(text)
+    real(wp), intent(in) :: x
+    character(len=:), allocatable :: text
+    character(len=24) :: buffer
+    write (buffer, '(g0.6)') x
+    text = trim(buffer)
+  end function number
+
+  !> Name of a parameter without the null character.
+  pure function name_of(i) result(name)
+    integer, intent(in) :: i
+    character(len=:), allocatable :: name
+    name = parameters(i)%name(:index(parameters(i)%name, nul) - 1)
+  end function name_of
+
+  !> The convention of the public UMAT: m_R <= 0.5 switches the intergranular strain off.
+  pure function intergranular_is_on(props) result(yes)
+    real(wp), intent(in) :: props(n_parameters)
+    logical :: yes
+    yes = .false.
+    if (ieee_is_finite(props(i_m_R))) yes = props(i_m_R) > 0.5_wp
+  end function intergranular_is_on
+
+  !> a of the limit condition; theory.md Eq. (2).
+  pure function limit_constant(props) result(a)
+    real(wp), intent(in) :: props(n_parameters)
+    real(wp) :: a
+    real(wp) :: sine
+    sine = sin(props(i_phi_c) * acos(-1.0_wp) / 180.0_wp)
+    a = sqrt(3.0_wp) * (3.0_wp - sine) / (2.0_wp * sqrt(2.0_wp) * sine)
+  end function limit_constant
+
+  !> The bracket in the denominator of f_b; theory.md Eq. (8).
+  pure function stiffness_bracket(props) result(bracket)
+    real(wp), intent(in) :: props(n_parameters)
+    real(wp) :: bracket
+    real(wp) :: a
+    a = limit_constant(props)
+    bracket = 3.0_wp + a**2 - a * sqrt(3.0_wp) * &
+              ((props(i_e_i0) - props(i_e_d0)) / (props(i_e_c0) - props(i_e_d0)))**props(i_alpha)
+  end function stiffness_bracket
+
+end module hypofab_material

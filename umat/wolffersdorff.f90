@@ -1,0 +1,113 @@
+!> The hypoplastic tensors L and N of von Wolffersdorff (1996) from stress and void ratio.
+!>
+!> Tension positive. Equation names as in docs/theory.md, section 2.
+module hypofab_wolffersdorff
+  use hypofab_kinds, only: wp
+  use hypofab_material, only: material_type
+  use hypofab_status, only: status_ok, status_out_of_domain
+  use hypofab_tensor, only: ddot, trace, deviator, trace_of_cube, is_negative_definite, unit_tensor, multiplicity
+  implicit none
+  private
+  public :: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L, in_domain
+
+  !> L and N of one state. L is never stored as a matrix: L:X = identity X + dyad That (That:X).
+  type :: hypoplastic_type
+    real(wp) :: that(6) !< T/tr T
+    real(wp) :: identity !< f_s F^2 [stress]
+    real(wp) :: dyad !< f_s a^2 [stress]
+    real(wp) :: N(6) !< f_s f_d a F (That + T*hat) [stress]
+  end type hypoplastic_type
+
+contains
+
+  !> Is a state inside the model's domain: all principal values of T - p_t 1 compressive, void ratio positive?
+  pure function in_domain(m, stress, void_ratio) result(yes)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: stress(6), void_ratio
+    logical :: yes
+    yes = is_negative_definite(stress - m%p_t * unit_tensor) .and. void_ratio > 0.0_wp
+  end function in_domain
+
+  !> L and N; theory.md Eqs. (1) to (10).
+  !> @param m          material
+  !> @param stress     effective stress T [stress]
+  !> @param void_ratio e
+  !> @param h          L and N
+  !> @param status     status_ok, or status_out_of_domain when a principal value of T - p_t 1 is not compressive
+  pure subroutine hypoplastic_tensors(m, stress, void_ratio, h, status)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: stress(6), void_ratio
+    type(hypoplastic_type), intent(out) :: h
+    integer, intent(out) :: status
+    real(wp) :: shifted(6), deviatoric(6), pressure, shrink, power, F, f_s, f_d, e_d, e_c, e_i
+
+    shifted = stress - m%p_t * unit_tensor
+    if (.not. in_domain(m, stress, void_ratio)) then
+      h = hypoplastic_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      status = status_out_of_domain
+      return
+    end if
+    status = status_ok
+
+    pressure = -trace(shifted)
+    h%that = -shifted / pressure
+    deviatoric = deviator(h%that)
+    F = stress_factor(deviatoric)
+
+    ! Limiting void ratios, Bauer's law: theory.md Eq. (6).
+    power = (pressure / m%h_s)**m%n
+    shrink = exp(-power)
+    e_d = m%e_d0 * shrink
+    e_c = m%e_c0 * shrink
+    e_i = m%e_i0 * shrink
+
+    ! f_d is zero at and below e_d: the densest packing does not soften (its continuation would be complex).
+    f_d = 0.0_wp
+    if (void_ratio > e_d) f_d = ((void_ratio - e_d) / (e_c - e_d))**m%alpha
+    ! Eqs. (7) to (9); (p/h_s)^(1-n) is (p/h_s)/power.
+    f_s = m%f_b0 * (1.0_wp + e_i) / e_i * (pressure / m%h_s) / power * (e_c / void_ratio)**m%beta / ddot(h%that, h%that)
+
+    h%identity = f_s * F**2
+    h%dyad = f_s * m%a**2
+    h%N = f_s * f_d * m%a * F * (h%that + deviatoric)
+  end subroutine hypoplastic_tensors
+
+  !> F, the Matsuoka-Nakai shape of the limit condition; theory.md Eqs. (3) to (5).
+  !> @param deviatoric T*hat, the deviator of T/tr T
+  pure function stress_factor(deviatoric) result(F)
+    real(wp), intent(in) :: deviatoric(6)
+    real(wp) :: F
+    real(wp) :: square, size, product
+    square = ddot(deviatoric, deviatoric)
+    size = sqrt(square)
+    ! sqrt(2) tan(psi) cos(3 theta) = -6 tr(T*hat^3)/|T*hat|^2: the quotient stays bounded by sqrt(6)|T*hat| and is
+    ! zero on the isotropic axis, where cos(3 theta) alone has no value.
+    product = 0.0_wp
+    if (square > sqrt(tiny(square))) then
+      product = -6.0_wp * trace_of_cube(deviatoric) / square
+      product = max(-sqrt(6.0_wp) * size, min(sqrt(6.0_wp) * size, product))
+    end if
+    ! tan^2(psi) = 3 |T*hat|^2.
+    F = sqrt(0.375_wp * square + (2.0_wp - 3.0_wp * square) / (2.0_wp + product)) - sqrt(0.375_wp) * size
+  end function stress_factor
+
+  !> L:X.
+  pure function apply_L(h, x) result(y)
+    type(hypoplastic_type), intent(in) :: h
+    real(wp), intent(in) :: x(6)
+    real(wp) :: y(6)
+    y = h%identity * x + h%dyad * ddot(h%that, x) * h%that
+  end function apply_L
+
+  !> L as a matrix on tensor components: y = matmul(matrix, x), shear counted twice in the columns.
+  pure function matrix_of_L(h) result(matrix)
+    type(hypoplastic_type), intent(in) :: h
+    real(wp) :: matrix(6, 6)
+    integer :: j
+    do j = 1, 6
+      matrix(:, j) = h%dyad * multiplicity(j) * h%that(j) * h%that
+      matrix(j, j) = matrix(j, j) + h%identity
+    end do
+  end function matrix_of_L
+
+end module hypofab_wolffersdorff
