@@ -25,6 +25,7 @@ install(FILES ${PROJECT_BINARY_DIR}/hypofab-config-version.cmake DESTINATION ${p
 
 # pkg-config: hypofab and hypofab_umat. The prefix is found from the folder of the .pc file.
 file(RELATIVE_PATH prefix_from_pkgconfig /${pkgconfig_dir} /)
+string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
 function(hypofab_install_pkgconfig name description)
   set(PKGCONFIG_NAME ${name})
   set(PKGCONFIG_DESCRIPTION ${description})

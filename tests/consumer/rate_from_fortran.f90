@@ -34,7 +34,7 @@ program rate_from_fortran
   type(material_t) :: sand
   type(state_t) :: state, once, twice
 
-  call require(hypofab_sand("hochstetten_wolffersdorff"//c_null_char, sand), "hypofab_sand")
+  call require(hypofab_sand("hochstetten"//c_null_char, sand), "hypofab_sand")
   state = state_t(stress=[-100.0_c_double, -80.0_c_double, -90.0_c_double, 5.0_c_double, 0.0_c_double, 0.0_c_double], &
                   delta=0.0_c_double, void_ratio=0.5_c_double*(sand%e_c0 + sand%e_d0))
   call require(hypofab_rate(sand, state, stretching, once, c_null_ptr), "hypofab_rate")
