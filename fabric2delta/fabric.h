@@ -1,0 +1,23 @@
+/**
+ * @file fabric.h
+ * @brief The formulas of fabric.f90 as C sees them; arguments are described there.
+ */
+#ifndef HYPOFAB_FABRIC2DELTA_FABRIC_H
+#define HYPOFAB_FABRIC2DELTA_FABRIC_H
+
+#include "hypofab.h"
+
+/** Add n (x) n of a block of n normals (three numbers each) to six running sums. */
+void hypofab_fabric_add_normals(int n, const double *normals, double sums[6]);
+
+/** F, a, principal values and directions of a fabric tensor; 0, or LAPACK's info. */
+int hypofab_fabric_describe(const double tensor[6], hypofab_fabric *fabric);
+
+/** Set counts and coordination numbers; none < 0: contacts per particle are not known. */
+void hypofab_fabric_count_coordination(int64_t contacts, int64_t particles, int64_t none, int64_t one,
+                                       hypofab_fabric *fabric);
+
+/** f, A and delta of a fabric; delta is NaN where A = 0. */
+void hypofab_fabric_map_to_delta(const hypofab_fabric *fabric, double R, double c, hypofab_initial_delta *map);
+
+#endif
