@@ -1,0 +1,107 @@
+/* hypofab delta: contact list or fabric tensor -> initial intergranular strain. */
+#include <argp.h>
+#include <stdio.h>
+
+#include "cli/cmd_fabric.h"
+#include "cli/commands.h"
+#include "cli/contact_options.h"
+#include "cli/report.h"
+
+enum { KEY_JSON = 0x100, KEY_R, KEY_C, KEY_SIGN };
+
+typedef struct choices {
+  contact_options contacts;
+  double R, c;
+  bool json;
+  bool compression_positive;
+} choices;
+
+static const struct argp_option options[] = {
+    {.name = "R", .key = KEY_R, .arg = "NUMBER", .doc = "Size of the elastic strain range, |delta| (default: 1e-4)"},
+    {.name = "c", .key = KEY_C, .arg = "NUMBER", .doc = "Parameter of the weight f(a) = 1 - exp(-a/c) (default: 0.05)"},
+    {.name = "sign",
+     .key = KEY_SIGN,
+     .doc = "Soil-mechanics sign: print delta with compression positive (STATEV keeps tension positive)"},
+    {.name = "json", .key = KEY_JSON, .doc = "Print a JSON object with all digits instead of a table"},
+    {0}};
+
+static const char doc[] =
+    "Initial intergranular strain of a granular sample from its contact fabric: A = (1 - f) 1 + f F, "
+    "delta = R A/|A|, with f(a) = 1 - exp(-a/c). Tension is positive.\n"
+    "FILE is a list with one contact per row, plain or compressed by gzip, as DEM programs write it. When its header "
+    "names the columns nx, ny, nz (and id1, id2), no options are needed."
+    "\v"
+    "Examples:\n"
+    "  hypofab delta contacts.txt.gz --R 1e-4 --c 0.05\n"
+    "  hypofab delta --N .318,.362,.320,.001,-.002,0 --R 1e-4 --c 0.05 --json\n"
+    "  hypofab delta dump.txt --nx 6 --ny 7 --nz 8\n"
+    "\n"
+    "Components of tensors come in the order xx yy zz xy xz yz. A UMAT stores delta with engineering shear "
+    "(gamma = 2 eps); the table ends with that line.";
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  choices *chosen = state->input;
+  switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &chosen->contacts; return 0;
+    case KEY_R: chosen->R = parse_number(state, "--R", text); return 0;
+    case KEY_C: chosen->c = parse_number(state, "--c", text); return 0;
+    case KEY_SIGN: chosen->compression_positive = true; return 0;
+    case KEY_JSON: chosen->json = true; return 0;
+    default: return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* delta as the user wants it to be signed. */
+static void signed_delta(const choices *chosen, const hypofab_initial_delta *map, double delta[6]) {
+  for (int i = 0; i < 6; i++) delta[i] = chosen->compression_positive ? 0.0 - map->delta[i] : map->delta[i];
+}
+
+static const char *sign_name(const choices *chosen) {
+  return chosen->compression_positive ? "compression positive" : "tension positive";
+}
+
+static int print_as_json(const choices *chosen, const hypofab_fabric *fabric, const hypofab_initial_delta *map) {
+  double delta[6];
+  signed_delta(chosen, map, delta);
+  json_t *object = fabric_to_json(fabric);
+  json_t *more = json_pack("{s:f, s:f, s:f, s:o, s:o, s:s}", "R", chosen->R, "c", chosen->c, "weight", map->weight,
+                           "weighted_fabric", numbers_to_json(map->weighted_fabric, 6), "delta",
+                           numbers_to_json(delta, 6), "sign", sign_name(chosen));
+  if (json_object_update(object, more)) {
+    json_decref(object);
+    object = NULL;
+  }
+  json_decref(more);
+  return print_json(object);
+}
+
+static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, const hypofab_initial_delta *map) {
+  double delta[6];
+  signed_delta(chosen, map, delta);
+  print_fabric(fabric);
+  printf("\nweight f(a), c = %-16g  %.6f\n\n", chosen->c, map->weight);
+  print_tensor_head();
+  print_tensor("A", map->weighted_fabric);
+  print_tensor("delta", delta);
+  printf("\ndelta: tensor components, %s, |delta| = R = %g\n", sign_name(chosen), chosen->R);
+  printf("\nSTATEV(1:6) of the UMAT (11 22 33 12 13 23, engineering shear, tension positive):\n");
+  for (int i = 0; i < 6; i++) printf("%s%.9e", i ? ", " : "", i < 3 ? map->delta[i] : 2.0 * map->delta[i]);
+  putchar('\n');
+  return cli_finish_output();
+}
+
+int cmd_delta(int argc, char **argv) {
+  static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1}, {0}};
+  static const struct argp parser = {
+      .options = options, .parser = parse, .args_doc = "FILE\n--N XX,YY,ZZ,XY,XZ,YZ", .doc = doc, .children = children};
+  choices chosen = {.R = 1e-4, .c = 0.05};
+  argp_err_exit_status = CLI_BAD_INPUT;
+  if (argp_parse(&parser, argc, argv, 0, NULL, &chosen)) return CLI_INTERNAL_ERROR;
+
+  hypofab_fabric fabric;
+  hypofab_initial_delta map;
+  hypofab_status status = contact_options_fabric(&chosen.contacts, &fabric);
+  if (!status) status = hypofab_fabric_to_delta(&fabric, chosen.R, chosen.c, &map);
+  if (status) return cli_exit(status);
+  return chosen.json ? print_as_json(&chosen, &fabric, &map) : print_as_table(&chosen, &fabric, &map);
+}

@@ -1,0 +1,29 @@
+/**
+ * @file commands.h
+ * @brief The subcommands of the program: one file cmd_<name>.c each.
+ *
+ * Each gets its own arguments, argv[0] being "hypofab <name>", and returns the exit code: 0 done, 1 stopped early for
+ * a physical reason, 2 bad input, 3 internal error.
+ */
+#ifndef HYPOFAB_CLI_COMMANDS_H
+#define HYPOFAB_CLI_COMMANDS_H
+
+/** Run the element tests of a deck. */
+int cmd_run(int argc, char **argv);
+
+/** Compute the response envelopes of a deck. */
+int cmd_envelope(int argc, char **argv);
+
+/** Contact fabric of a contact list. */
+int cmd_fabric(int argc, char **argv);
+
+/** Initial intergranular strain of a contact list or a fabric tensor. */
+int cmd_delta(int argc, char **argv);
+
+/** List the built-in sands. */
+int cmd_materials(int argc, char **argv);
+
+/** Check a deck without running it. */
+int cmd_check(int argc, char **argv);
+
+#endif

@@ -1,0 +1,102 @@
+#include "cli/contact_options.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_ID1 = 0x200, KEY_ID2, KEY_NX, KEY_NY, KEY_NZ, KEY_SEPARATOR, KEY_PARTICLES, KEY_TENSOR };
+
+static const struct argp_option options[] = {
+    {.doc = "Where the fabric comes from:", .group = 1},
+    {.name = "N", .key = KEY_TENSOR, .arg = "XX,YY,ZZ,XY,XZ,YZ", .doc = "The fabric tensor itself, instead of FILE"},
+    {.name = "particles",
+     .key = KEY_PARTICLES,
+     .arg = "N|FILE",
+     .doc = "Number of particles, or a list with one row for each (and a column id). Default: the particles that "
+            "FILE names"},
+    {.doc = "Columns of FILE, by name or by number from 1:", .group = 2},
+    {.name = "id1", .key = KEY_ID1, .arg = "COLUMN", .doc = "First particle (default: id1, if there)"},
+    {.name = "id2", .key = KEY_ID2, .arg = "COLUMN", .doc = "Second particle (default: id2, if there)"},
+    {.name = "nx", .key = KEY_NX, .arg = "COLUMN", .doc = "Contact normal, x (default: nx)"},
+    {.name = "ny", .key = KEY_NY, .arg = "COLUMN", .doc = "Contact normal, y (default: ny)"},
+    {.name = "nz", .key = KEY_NZ, .arg = "COLUMN", .doc = "Contact normal, z (default: nz)"},
+    {.name = "separator",
+     .key = KEY_SEPARATOR,
+     .arg = "CHARACTER",
+     .doc = "Between columns: a comma, a semicolon, tab or blank (default: what FILE shows)"},
+    {0}};
+
+double parse_number(struct argp_state *state, const char *option, const char *text) {
+  char *end;
+  double value = strtod(text, &end);
+  if (end == text || *end != '\0' || !isfinite(value))
+    argp_error(state, "%s: '%s' is not a number", option, text); /* does not return */
+  return value;
+}
+
+static void parse_tensor(struct argp_state *state, const char *text, double N[6]) {
+  char *copy = strdup(text), *rest = copy;
+  if (!copy) argp_failure(state, 3, 0, "out of memory");
+  int count = 0;
+  for (char *part; (part = strsep(&rest, ",")); count++)
+    if (count < 6) N[count] = parse_number(state, "--N", part);
+  if (count != 6) argp_error(state, "--N: %d numbers in '%s'; expected six, xx,yy,zz,xy,xz,yz", count, text);
+  free(copy);
+}
+
+static char parse_separator(struct argp_state *state, const char *text) {
+  if (!strcmp(text, "tab") || !strcmp(text, "\\t")) return '\t';
+  if (!strcmp(text, "blank")) return ' ';
+  if (strlen(text) != 1 || !strchr(",;\t ", text[0]))
+    argp_error(state, "--separator: '%s'; expected ',' ';' tab or blank", text);
+  return text[0];
+}
+
+static void parse_particles(struct argp_state *state, const char *text, hypofab_contact_format *format) {
+  if (text[0] == '\0' || text[strspn(text, "0123456789")] != '\0') {
+    format->particle_file = text;
+    return;
+  }
+  format->particles = strtoll(text, NULL, 10);
+  if (format->particles < 1 || format->particles == INT64_MAX)
+    argp_error(state, "--particles: '%s'; expected a number of particles, 1 or more, or a file", text);
+}
+
+static void check(struct argp_state *state, const contact_options *chosen) {
+  static const hypofab_contact_format none = {0};
+  if (!chosen->file == !chosen->has_tensor) argp_error(state, "give either a contact list or --N");
+  if (chosen->has_tensor && memcmp(&chosen->format, &none, sizeof none))
+    argp_error(state, "options that describe a contact list make no sense with --N");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  contact_options *chosen = state->input;
+  hypofab_contact_format *format = &chosen->format;
+  switch (key) {
+    case KEY_ID1: format->id1 = text; break;
+    case KEY_ID2: format->id2 = text; break;
+    case KEY_NX: format->nx = text; break;
+    case KEY_NY: format->ny = text; break;
+    case KEY_NZ: format->nz = text; break;
+    case KEY_SEPARATOR: format->separator = parse_separator(state, text); break;
+    case KEY_PARTICLES: parse_particles(state, text, format); break;
+    case KEY_TENSOR:
+      parse_tensor(state, text, chosen->N);
+      chosen->has_tensor = true;
+      break;
+    case ARGP_KEY_ARG:
+      if (chosen->file) argp_error(state, "'%s': one contact list at a time", text);
+      chosen->file = text;
+      break;
+    case ARGP_KEY_END: check(state, chosen); break;
+    default: return ARGP_ERR_UNKNOWN;
+  }
+  return 0;
+}
+
+const struct argp contact_argp = {.options = options, .parser = parse};
+
+hypofab_status contact_options_fabric(const contact_options *chosen, hypofab_fabric *fabric) {
+  return chosen->has_tensor ? hypofab_fabric_from_tensor(chosen->N, fabric)
+                            : hypofab_fabric_read(chosen->file, &chosen->format, fabric);
+}

@@ -1,0 +1,30 @@
+/**
+ * @file contact_options.h
+ * @brief Where the fabric comes from: FILE and its format, or --N. Shared by `hypofab fabric` and `hypofab delta`.
+ */
+#ifndef HYPOFAB_CLI_CONTACT_OPTIONS_H
+#define HYPOFAB_CLI_CONTACT_OPTIONS_H
+
+#include <argp.h>
+#include <stdbool.h>
+
+#include "hypofab.h"
+
+/** What the user said. All zero before parsing. */
+typedef struct contact_options {
+  const char *file; /**< contact list; NULL when N is given */
+  bool has_tensor;  /**< N is given */
+  double N[6];
+  hypofab_contact_format format;
+} contact_options;
+
+/** Child parser for argp; its input is a contact_options. */
+extern const struct argp contact_argp;
+
+/** A finite number; argp's usage error and exit code 2 otherwise. */
+double parse_number(struct argp_state *state, const char *option, const char *text);
+
+/** The fabric the user asked for. */
+hypofab_status contact_options_fabric(const contact_options *options, hypofab_fabric *fabric);
+
+#endif
