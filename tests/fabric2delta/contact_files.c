@@ -74,10 +74,10 @@ static double gauss(uint64_t *state) {
   return sqrt(-2.0 * log(uniform(state))) * cos(2.0 * pi * uniform(state));
 }
 
-void random_normals(unsigned long seed, size_t n, double (*normals)[3]) {
+void random_normals(unsigned long seed, const double stretch[3], size_t n, double (*normals)[3]) {
   uint64_t state = seed;
   for (size_t i = 0; i < n; i++) {
-    double v[3] = {gauss(&state), 1.5 * gauss(&state), 0.8 * gauss(&state)};
+    double v[3] = {stretch[0] * gauss(&state), stretch[1] * gauss(&state), stretch[2] * gauss(&state)};
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (int k = 0; k < 3; k++) normals[i][k] = v[k] / length;
   }

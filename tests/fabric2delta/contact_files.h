@@ -24,8 +24,8 @@ const char *write_gzip(const char *name, const char *text);
 /** Write n contacts with a header, 17 digits, ids 2 i and 2 i + 1; returns the path. */
 const char *write_normals(const char *name, size_t n, double (*normals)[3]);
 
-/** Fill with n random unit vectors, stretched along an axis before normalising so that they are anisotropic. */
-void random_normals(unsigned long seed, size_t n, double (*normals)[3]);
+/** Fill with n random unit vectors: isotropic ones, multiplied by `stretch` along x, y, z and normalised again. */
+void random_normals(unsigned long seed, const double stretch[3], size_t n, double (*normals)[3]);
 
 /** A random rotation matrix. */
 void random_rotation(unsigned long seed, double rotation[3][3]);

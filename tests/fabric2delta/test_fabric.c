@@ -175,11 +175,13 @@ static void test_weight(void **state) {
 
 enum { N_CONTACTS = 1500 };
 
+static const double anisotropic[3] = {1.0, 1.5, 0.8};
+
 static void test_rotation(void **state) {
   (void)state;
   double normals[N_CONTACTS][3], turned[N_CONTACTS][3], Q[3][3], expected[6];
   for (unsigned long seed = 1; seed <= 5; seed++) {
-    random_normals(seed, N_CONTACTS, normals);
+    random_normals(seed, anisotropic, N_CONTACTS, normals);
     random_rotation(seed + 100, Q);
     for (int i = 0; i < N_CONTACTS; i++)
       for (int k = 0; k < 3; k++)
@@ -203,7 +205,7 @@ static void test_rotation(void **state) {
 static void test_order_sense_and_length(void **state) {
   (void)state;
   double normals[N_CONTACTS][3], changed[N_CONTACTS][3];
-  random_normals(7, N_CONTACTS, normals);
+  random_normals(7, anisotropic, N_CONTACTS, normals);
   hypofab_fabric before = read_fabric(write_normals("before.txt", N_CONTACTS, normals), NULL);
   for (int i = 0; i < N_CONTACTS; i++) {
     int from = (i * 701 + 13) % N_CONTACTS; /* 701 is prime to 1500 */
@@ -214,6 +216,21 @@ static void test_order_sense_and_length(void **state) {
   assert_tensor_near(after.fabric, before.fabric, 1e-14);
   assert_near(after.anisotropy, before.anisotropy, 1e-13);
   assert_near(after.fabric[0] + after.fabric[1] + after.fabric[2], 1.0, 1e-14);
+}
+
+/* A sample of N_c independent isotropic contacts has E[a^2] = 7.5^2/N_c: E[(N - 1/3 1):(N - 1/3 1)] is (1 - 1/3)/N_c.
+ * 5 a^2 over its mean is nearly chi-squared with 5 degrees of freedom, so the mean of 300 samples scatters by 3.7 %. */
+static void test_noise_of_isotropic_samples(void **state) {
+  (void)state;
+  enum { SAMPLES = 300, SIZE = 400 };
+  static const double isotropic[3] = {1.0, 1.0, 1.0};
+  double normals[SIZE][3], mean = 0.0;
+  for (unsigned long seed = 0; seed < SAMPLES; seed++) {
+    random_normals(seed, isotropic, SIZE, normals);
+    double a = read_fabric(write_normals("isotropic.txt", SIZE, normals), NULL).anisotropy;
+    mean += a * a / SAMPLES;
+  }
+  assert_near(mean * SIZE / (7.5 * 7.5), 1.0, 0.12);
 }
 
 /* N v = value v, largest first, right-handed, largest component of the first two positive. */
@@ -291,12 +308,17 @@ static void test_refused_parameters(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_paper_tables),       cmocka_unit_test(test_isotropic_sample),
-      cmocka_unit_test(test_anisotropic_sample), cmocka_unit_test(test_simple_cubic_lattice),
-      cmocka_unit_test(test_parallel_contacts),  cmocka_unit_test(test_weight),
-      cmocka_unit_test(test_rotation),           cmocka_unit_test(test_order_sense_and_length),
-      cmocka_unit_test(test_principal_values),   cmocka_unit_test(test_refused_tensors),
-      cmocka_unit_test(test_refused_parameters)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_paper_tables),
+                                     cmocka_unit_test(test_isotropic_sample),
+                                     cmocka_unit_test(test_anisotropic_sample),
+                                     cmocka_unit_test(test_simple_cubic_lattice),
+                                     cmocka_unit_test(test_parallel_contacts),
+                                     cmocka_unit_test(test_weight),
+                                     cmocka_unit_test(test_rotation),
+                                     cmocka_unit_test(test_order_sense_and_length),
+                                     cmocka_unit_test(test_noise_of_isotropic_samples),
+                                     cmocka_unit_test(test_principal_values),
+                                     cmocka_unit_test(test_refused_tensors),
+                                     cmocka_unit_test(test_refused_parameters)};
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
