@@ -1,0 +1,52 @@
+/* The program `hypofab`: one subcommand per file. */
+#include <argp.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/report.h"
+#include "hypofab.h"
+
+static const struct command {
+  const char *name;
+  int (*run)(int argc, char **argv);
+  const char *purpose;
+} commands[] = {
+    {"run", cmd_run, "run the element tests of a deck"},
+    {"envelope", cmd_envelope, "compute the response envelopes of a deck"},
+    {"check", cmd_check, "validate a deck and say what it would run"},
+    {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
+    {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},
+    {"delta", cmd_delta, "initial intergranular strain from a contact list or a fabric tensor"},
+};
+
+static void print_help(FILE *stream) {
+  fputs("Usage: hypofab COMMAND [ARGUMENTS]\n\n"
+        "From grain contacts to finite elements: hypoplasticity of sand with intergranular strain.\n\nCommands:\n",
+        stream);
+  for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
+    fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].purpose);
+  fputs("\n'hypofab COMMAND --help' explains a command, with examples; 'hypofab --version' prints the version.\n"
+        "Exit codes: 0 done, 1 stopped early (results so far are written), 2 bad input, 3 internal error.\n",
+        stream);
+}
+
+int main(int argc, char **argv) {
+  argp_err_exit_status = CLI_BAD_INPUT; /* bad options are bad input */
+  const char *name = argc > 1 ? argv[1] : "";
+  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+    print_help(stdout);
+    return 0;
+  }
+  if (strcmp(name, "--version") == 0) return printf("hypofab %s\n", hypofab_version()) < 0;
+  for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
+    if (strcmp(name, commands[i].name) != 0) continue;
+    char full_name[32]; /* argp prints argv[0] in its messages */
+    snprintf(full_name, sizeof full_name, "hypofab %s", name);
+    argv[1] = full_name;
+    return commands[i].run(argc - 1, argv + 1);
+  }
+  if (*name) fprintf(stderr, "hypofab: '%s' is not a command\n\n", name);
+  print_help(stderr);
+  return CLI_BAD_INPUT;
+}

@@ -1,0 +1,132 @@
+#include "deck/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "deck/output.h"
+
+/* One test while it runs: what the row sink needs. */
+typedef struct run {
+  const hypofab_study *study;
+  unsigned index;
+  output_file file;
+  study_result *result;
+  hypofab_progress progress;
+  void *user;
+  bool asked_to_stop;
+} run;
+
+static void write_header(FILE *stream) {
+  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
+    fprintf(stream, "%s%s", i ? "," : "", hypofab_quantity_name(i));
+    if (i == HYPOFAB_TIME) fputs(",step", stream);
+  }
+  fputc('\n', stream);
+}
+
+static void write_row(const hypofab_study *study, const hypofab_row *row, FILE *stream) {
+  char line[(HYPOFAB_N_QUANTITIES + 2) * OUTPUT_NUMBER_SIZE];
+  int used = output_number(line, ' ', row->value[HYPOFAB_TIME]);
+  used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d", row->step + 1);
+  for (int i = HYPOFAB_TIME + 1; i < HYPOFAB_N_QUANTITIES; ++i)
+    used += output_number(line + used, ',', study_quantity_has_sign(i) ? study_sign(study) * row->value[i]
+                                                                       : row->value[i]);
+  line[used++] = '\n';
+  fwrite(line + 1, 1, (size_t)used - 1, stream); /* without the blank in front */
+}
+
+/* How far the study is, by the distance the current step still has to its end. */
+static double fraction_done(const run *run, const hypofab_row *row) {
+  const study_test *test = &run->study->tests[run->index];
+  const hypofab_mark until = test->steps[row->step].until;
+  const hypofab_row *before = row->step > 0 ? &run->result->ends[row->step - 1] : &run->result->start;
+  const double start = before->value[until.quantity];
+  double fraction = (row->value[until.quantity] - start) / (until.value - start);
+  fraction = isfinite(fraction) ? fmin(fmax(fraction, 0), 1) : 0;
+  return (run->index + (row->step + fraction) / test->n_steps) / run->study->deck->tests_count;
+}
+
+static int take_row(const hypofab_row *row, void *user) {
+  run *run = user;
+  study_result *result = run->result;
+  if (result->rows++ == 0) result->start = *row;
+  result->ends[row->step] = *row;
+  result->steps_begun = (unsigned)row->step + 1;
+  write_row(run->study, row, run->file.stream);
+  if (run->progress)
+    run->asked_to_stop =
+        run->progress(run->study->deck->tests[run->index].name, fraction_done(run, row), run->user) != 0;
+  return run->asked_to_stop || ferror(run->file.stream); /* output_commit reports the latter */
+}
+
+/* Run one test into its file. A physical stop is no failure here: it is in the result. */
+static hypofab_status run_test(run *run, const char *directory) {
+  const hypofab_study *study = run->study;
+  const study_test *test = &study->tests[run->index];
+  const study_state *state = &study->states[test->state];
+  study_result *result = run->result;
+  const char *name = study->deck->tests[run->index].name;
+  char file_name[160];
+  snprintf(file_name, sizeof file_name, "%s.csv", name);
+  result->ends = calloc(test->n_steps, sizeof *result->ends);
+  if (!result->ends) return hypofab_fail(HYPOFAB_NO_MEMORY, "test '%s': out of memory", name);
+  hypofab_status status = output_open(&run->file, directory, file_name);
+  if (status) return status;
+  write_header(run->file.stream);
+
+  hypofab_test_outcome outcome = {0};
+  status = hypofab_test_run(&study->materials[state->material], &state->initial, test->steps, (int)test->n_steps,
+                            &test->options, take_row, run, &outcome);
+  if (status >= HYPOFAB_BAD_MATERIAL) {
+    output_discard(&run->file);
+    return hypofab_fail(status, "%s: test '%s': %s", study->path, name, hypofab_last_message());
+  }
+  result->ran = true;
+  result->status = status;
+  if (status) memcpy(result->message, hypofab_last_message(), sizeof result->message);
+  result->integrator_steps = outcome.integrator_steps;
+  result->evaluations = outcome.evaluations;
+  return output_commit(&run->file);
+}
+
+/* The message of a run that stopped early: about its first such test. */
+static hypofab_status explain(const hypofab_study *study, const char *directory, const study_result *results,
+                              bool asked_to_stop) {
+  for (unsigned i = 0; i < study->deck->tests_count; ++i) {
+    const study_result *result = &results[i];
+    if (!result->status) continue;
+    const deck_test *given = &study->deck->tests[i];
+    if (asked_to_stop && !result->ran)
+      return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted before test '%s'; results so far are in %s", given->name,
+                          directory);
+    if (asked_to_stop && result->status == HYPOFAB_INTERRUPTED)
+      return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted in test '%s'; its %ld rows so far are in %s/%s.csv",
+                          given->name, result->rows, directory, given->name);
+    return hypofab_fail(result->status, "test '%s' stopped early in step %u: %s; its %ld rows so far are in %s/%s.csv",
+                        given->name, result->steps_begun, result->message, result->rows, directory, given->name);
+  }
+  return HYPOFAB_OK;
+}
+
+hypofab_status hypofab_study_run(const hypofab_study *study, const char *directory, hypofab_progress progress,
+                                 void *user) {
+  if (!study || !directory)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "study or directory is NULL, expected a loaded study and a folder");
+  const unsigned n = study->deck->tests_count;
+  study_result *results = calloc(n + 1, sizeof *results);
+  if (!results) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", study->path);
+  hypofab_status status = output_make_directory(directory);
+  run run = {.study = study, .progress = progress, .user = user};
+  for (unsigned i = 0; i < n && !status; ++i) {
+    run.index = i;
+    run.result = &results[i];
+    results[i].status = HYPOFAB_INTERRUPTED; /* unless it gets its turn */
+    if (!run.asked_to_stop) status = run_test(&run, directory);
+  }
+  if (!status) status = study_write_summary(study, directory, results);
+  if (!status) status = explain(study, directory, results, run.asked_to_stop);
+  for (unsigned i = 0; i < n; ++i) free(results[i].ends);
+  free(results);
+  return status;
+}

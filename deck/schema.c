@@ -1,0 +1,135 @@
+#include "deck/schema.h"
+
+#define OPTIONAL CYAML_FLAG_OPTIONAL
+#define OPTIONAL_POINTER (CYAML_FLAG_OPTIONAL | CYAML_FLAG_POINTER)
+#define OPTIONAL_STRICT (CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT)
+
+/* A text of at least one character, required or not. */
+#define TEXT(key, structure, member) CYAML_FIELD_STRING_PTR(key, CYAML_FLAG_POINTER, structure, member, 1, CYAML_UNLIMITED)
+#define OPTIONAL_TEXT(key, structure, member) \
+  CYAML_FIELD_STRING_PTR(key, OPTIONAL_POINTER, structure, member, 1, CYAML_UNLIMITED)
+#define SIX_NUMBERS(key, structure, member) \
+  CYAML_FIELD_SEQUENCE_FIXED(key, OPTIONAL_POINTER, structure, member, &number, 6)
+#define CHOICE(key, structure, member, names) \
+  CYAML_FIELD_ENUM_PTR(key, OPTIONAL_STRICT, structure, member, names, CYAML_ARRAY_LEN(names))
+
+static const cyaml_strval_t unit_names[] = {{"Pa", DECK_PA}, {"kPa", DECK_KPA}, {"MPa", DECK_MPA}};
+static const cyaml_strval_t sign_names[] = {{"tension_positive", DECK_TENSION_POSITIVE},
+                                            {"compression_positive", DECK_COMPRESSION_POSITIVE}};
+static const cyaml_strval_t axis_names[] = {{"x", 0}, {"y", 1}, {"z", 2}};
+/* libcyaml's own booleans take any text but "false", "no" and "0" for true. */
+static const cyaml_strval_t boolean_names[] = {{"false", 0}, {"true", 1}};
+
+static const cyaml_schema_value_t number = {CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAULT, double)};
+
+#define PARAMETER(index, name) CYAML_FIELD_FLOAT_PTR(name, OPTIONAL, deck_parameters, value[index])
+static const cyaml_schema_field_t parameter_fields[] = {
+    PARAMETER(0, "phi_c"), PARAMETER(1, "p_t"),   PARAMETER(2, "h_s"),     PARAMETER(3, "n"),
+    PARAMETER(4, "e_d0"),  PARAMETER(5, "e_c0"),  PARAMETER(6, "e_i0"),    PARAMETER(7, "alpha"),
+    PARAMETER(8, "beta"),  PARAMETER(9, "m_R"),   PARAMETER(10, "m_T"),    PARAMETER(11, "R"),
+    PARAMETER(12, "beta_r"), PARAMETER(13, "chi"), PARAMETER(14, "K_w"),   PARAMETER(15, "e_0"),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t material_fields[] = {
+    TEXT("name", deck_material, name),
+    OPTIONAL_TEXT("sand", deck_material, sand),
+    CYAML_FIELD_MAPPING_PTR("parameters", OPTIONAL_POINTER, deck_material, parameters, parameter_fields),
+    CHOICE("intergranular", deck_material, intergranular, boolean_names),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t columns_fields[] = {
+    OPTIONAL_TEXT("id1", deck_columns, id1), OPTIONAL_TEXT("id2", deck_columns, id2),
+    OPTIONAL_TEXT("nx", deck_columns, nx),   OPTIONAL_TEXT("ny", deck_columns, ny),
+    OPTIONAL_TEXT("nz", deck_columns, nz),   CYAML_FIELD_END};
+
+static const cyaml_schema_field_t delta_fields[] = {
+    CHOICE("zero", deck_delta, zero, boolean_names),
+    SIX_NUMBERS("components", deck_delta, components),
+    SIX_NUMBERS("mobilised", deck_delta, mobilised),
+    SIX_NUMBERS("fabric", deck_delta, fabric),
+    OPTIONAL_TEXT("contacts", deck_delta, contacts),
+    CYAML_FIELD_FLOAT_PTR("c", OPTIONAL, deck_delta, c),
+    OPTIONAL_TEXT("particles", deck_delta, particles),
+    CYAML_FIELD_MAPPING_PTR("columns", OPTIONAL_POINTER, deck_delta, columns, columns_fields),
+    OPTIONAL_TEXT("separator", deck_delta, separator),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t state_fields[] = {
+    TEXT("name", deck_state, name),
+    TEXT("material", deck_state, material),
+    SIX_NUMBERS("stress", deck_state, stress),
+    CYAML_FIELD_FLOAT_PTR("p", OPTIONAL, deck_state, p),
+    CYAML_FIELD_FLOAT("void_ratio", CYAML_FLAG_DEFAULT, deck_state, void_ratio),
+    CYAML_FIELD_MAPPING_PTR("delta", OPTIONAL_POINTER, deck_state, delta, delta_fields),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t mark_fields[] = {TEXT("quantity", deck_mark, quantity),
+                                                   CYAML_FIELD_FLOAT("value", CYAML_FLAG_DEFAULT, deck_mark, value),
+                                                   CYAML_FIELD_END};
+
+static const cyaml_schema_field_t component_fields[] = {
+    CYAML_FIELD_FLOAT_PTR("strain_rate", OPTIONAL, deck_component, strain_rate),
+    CYAML_FIELD_FLOAT_PTR("stress_rate", OPTIONAL, deck_component, stress_rate), CYAML_FIELD_END};
+
+#define COMPONENT(index, name, flags) \
+  CYAML_FIELD_MAPPING_PTR(name, flags, deck_control, component[index], component_fields)
+static const cyaml_schema_field_t control_fields[] = {
+    COMPONENT(0, "xx", CYAML_FLAG_POINTER), COMPONENT(1, "yy", CYAML_FLAG_POINTER),
+    COMPONENT(2, "zz", CYAML_FLAG_POINTER), COMPONENT(3, "xy", OPTIONAL_POINTER),
+    COMPONENT(4, "xz", OPTIONAL_POINTER),   COMPONENT(5, "yz", OPTIONAL_POINTER),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t step_fields[] = {
+    OPTIONAL_TEXT("name", deck_step, name),
+    OPTIONAL_TEXT("preset", deck_step, preset),
+    CHOICE("axis", deck_step, axis, axis_names),
+    CYAML_FIELD_FLOAT_PTR("rate", OPTIONAL, deck_step, rate),
+    CYAML_FIELD_MAPPING_PTR("control", OPTIONAL_POINTER, deck_step, control, control_fields),
+    CYAML_FIELD_MAPPING("until", CYAML_FLAG_DEFAULT, deck_step, until, mark_fields),
+    CYAML_FIELD_UINT_PTR("rows", OPTIONAL, deck_step, rows),
+    CYAML_FIELD_MAPPING_PTR("every", OPTIONAL_POINTER, deck_step, every, mark_fields),
+    CYAML_FIELD_FLOAT_PTR("max_time", OPTIONAL, deck_step, max_time),
+    CYAML_FIELD_END};
+static const cyaml_schema_value_t step_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_step, step_fields)};
+
+static const cyaml_schema_field_t test_fields[] = {
+    TEXT("name", deck_test, name), TEXT("state", deck_test, state),
+    CYAML_FIELD_FLOAT_PTR("tolerance", OPTIONAL, deck_test, tolerance),
+    CYAML_FIELD_SEQUENCE("steps", CYAML_FLAG_POINTER, deck_test, steps, &step_value, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t series_fields[] = {
+    TEXT("name", deck_series, name), TEXT("state", deck_series, state),
+    CHOICE("intergranular", deck_series, intergranular, boolean_names), CYAML_FIELD_END};
+static const cyaml_schema_value_t series_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_series, series_fields)};
+
+static const cyaml_schema_field_t envelope_fields[] = {
+    TEXT("name", deck_envelope, name),
+    CYAML_FIELD_ENUM("axis", CYAML_FLAG_STRICT, deck_envelope, axis, axis_names, CYAML_ARRAY_LEN(axis_names)),
+    CYAML_FIELD_UINT_PTR("probes", OPTIONAL, deck_envelope, probes),
+    CYAML_FIELD_FLOAT_PTR("size", OPTIONAL, deck_envelope, size),
+    CYAML_FIELD_SEQUENCE("series", CYAML_FLAG_POINTER, deck_envelope, series, &series_value, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_value_t material_value = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_material, material_fields)};
+static const cyaml_schema_value_t state_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_state, state_fields)};
+static const cyaml_schema_value_t test_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_test, test_fields)};
+static const cyaml_schema_value_t envelope_value = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_envelope, envelope_fields)};
+
+static const cyaml_schema_field_t deck_fields[] = {
+    OPTIONAL_TEXT("title", deck, title),
+    CHOICE("unit", deck, unit, unit_names),
+    CHOICE("sign", deck, sign, sign_names),
+    CYAML_FIELD_SEQUENCE("materials", CYAML_FLAG_POINTER, deck, materials, &material_value, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("states", CYAML_FLAG_POINTER, deck, states, &state_value, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("tests", OPTIONAL_POINTER, deck, tests, &test_value, 0, CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("envelopes", OPTIONAL_POINTER, deck, envelopes, &envelope_value, 0, CYAML_UNLIMITED),
+    CYAML_FIELD_END};
+
+const cyaml_schema_value_t deck_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, deck, deck_fields)};
+
+const char *deck_unit_name(deck_unit unit) { return unit_names[unit].str; }
+
+const char *deck_sign_name(deck_sign sign) { return sign_names[sign].str; }

@@ -1,0 +1,132 @@
+/**
+ * @file schema.h
+ * @brief What a deck may say, as C structs filled by libcyaml. docs/deck.md describes every key.
+ *
+ * A pointer that is NULL stands for a key the deck does not give. Nothing here is converted or checked beyond its
+ * form: stresses carry the deck's unit, tensors and rates the deck's sign.
+ */
+#ifndef HYPOFAB_DECK_SCHEMA_H
+#define HYPOFAB_DECK_SCHEMA_H
+
+#include <cyaml/cyaml.h>
+
+#include "hypofab.h"
+
+/** Stress unit of a deck. */
+typedef enum deck_unit { DECK_PA, DECK_KPA, DECK_MPA } deck_unit;
+
+/** Sign of stress, strain and intergranular strain in a deck and in its result files. */
+typedef enum deck_sign { DECK_TENSION_POSITIVE, DECK_COMPRESSION_POSITIVE } deck_sign;
+
+/** Parameters by name, in the order of hypofab_material. */
+typedef struct deck_parameters {
+  double *value[HYPOFAB_N_PARAMETERS];
+} deck_parameters;
+
+typedef struct deck_material {
+  char *name;
+  char *sand;
+  deck_parameters *parameters;
+  int *intergranular;
+} deck_material;
+
+typedef struct deck_columns {
+  char *id1, *id2, *nx, *ny, *nz;
+} deck_columns;
+
+/** Where the initial intergranular strain comes from: exactly one of the first five. */
+typedef struct deck_delta {
+  int *zero;
+  double *components;
+  double *mobilised;
+  double *fabric;
+  char *contacts;
+  double *c;
+  char *particles;
+  deck_columns *columns;
+  char *separator;
+} deck_delta;
+
+typedef struct deck_state {
+  char *name;
+  char *material;
+  double *stress;
+  double *p;
+  double void_ratio;
+  deck_delta *delta;
+} deck_state;
+
+/** A quantity by column name and a value. */
+typedef struct deck_mark {
+  char *quantity;
+  double value;
+} deck_mark;
+
+/** What one tensor component of a step prescribes: exactly one of both. */
+typedef struct deck_component {
+  double *strain_rate;
+  double *stress_rate;
+} deck_component;
+
+/** xx yy zz xy xz yz. */
+typedef struct deck_control {
+  deck_component *component[6];
+} deck_control;
+
+typedef struct deck_step {
+  char *name;
+  char *preset;
+  int *axis;
+  double *rate;
+  deck_control *control;
+  deck_mark until;
+  unsigned *rows;
+  deck_mark *every;
+  double *max_time;
+} deck_step;
+
+typedef struct deck_test {
+  char *name;
+  char *state;
+  double *tolerance;
+  deck_step *steps;
+  unsigned steps_count;
+} deck_test;
+
+typedef struct deck_series {
+  char *name;
+  char *state;
+  int *intergranular;
+} deck_series;
+
+typedef struct deck_envelope {
+  char *name;
+  int axis;
+  unsigned *probes;
+  double *size;
+  deck_series *series;
+  unsigned series_count;
+} deck_envelope;
+
+typedef struct deck {
+  char *title;
+  int *unit;
+  int *sign;
+  deck_material *materials;
+  unsigned materials_count;
+  deck_state *states;
+  unsigned states_count;
+  deck_test *tests;
+  unsigned tests_count;
+  deck_envelope *envelopes;
+  unsigned envelopes_count;
+} deck;
+
+/** Schema of a whole deck, for libcyaml and for deck_check_form (form.h). */
+extern const cyaml_schema_value_t deck_schema;
+
+/** Name of a unit or a sign as decks write it. */
+const char *deck_unit_name(deck_unit unit);
+const char *deck_sign_name(deck_sign sign);
+
+#endif

@@ -1,0 +1,139 @@
+#include "deck/study.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "deck/form.h"
+
+/* A test's name becomes a file name. */
+#define LONGEST_NAME 100
+
+bool study_is_plain_name(const char *text) {
+  const size_t length = strlen(text);
+  if (length == 0 || length > LONGEST_NAME || text[0] == '.') return false;
+  return strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.") == length;
+}
+
+hypofab_status study_check_name(const hypofab_study *study, const deck_source *source, const char *list,
+                                unsigned index) {
+  const deck *deck = study->deck;
+  const bool is_test = strcmp(list, "tests") == 0;
+  const char *name = is_test ? deck->tests[index].name : deck->envelopes[index].name;
+  const deck_key key = deck_key_format("%s[%u].name", list, index);
+  if (!study_is_plain_name(name))
+    return deck_refuse(source, HYPOFAB_BAD_FILE, key,
+                       "'%.120s', expected letters, digits, - _ . (it names a file), at most %d, no dot in front", name,
+                       LONGEST_NAME);
+  for (unsigned i = 0; i < (is_test ? index : deck->tests_count); ++i)
+    if (strcmp(name, deck->tests[i].name) == 0)
+      return deck_refuse(source, HYPOFAB_BAD_FILE, key,
+                         "'%s' is also the name of tests[%u], expected a name of its own (it names a file)", name, i);
+  for (unsigned i = 0; i < (is_test ? 0 : index); ++i)
+    if (strcmp(name, deck->envelopes[i].name) == 0)
+      return deck_refuse(source, HYPOFAB_BAD_FILE, key,
+                         "'%s' is also the name of envelopes[%u], expected a name of its own (it names a file)", name,
+                         i);
+  return HYPOFAB_OK;
+}
+
+/* What libcyaml has to say, for the case that it refuses what deck_check_form let pass. */
+static void keep_log(cyaml_log_t level, void *context, const char *format, va_list arguments) {
+  (void)level;
+  char *text = context;
+  const size_t used = strlen(text);
+  vsnprintf(text + used, HYPOFAB_MESSAGE_SIZE / 2 - used, format, arguments);
+  for (char *c = text + used; *c; ++c)
+    if (isspace((unsigned char)*c)) *c = ' ';
+}
+
+static cyaml_config_t cyaml_configuration(char *log) {
+  return (cyaml_config_t){
+      .log_fn = log ? keep_log : NULL, .log_ctx = log, .mem_fn = cyaml_mem, .log_level = CYAML_LOG_ERROR};
+}
+
+static hypofab_status fill_deck(const deck_source *source, deck **filled) {
+  hypofab_status status = deck_check_form(source, &deck_schema);
+  if (status) return status;
+  char log[HYPOFAB_MESSAGE_SIZE / 2] = "";
+  const cyaml_config_t configuration = cyaml_configuration(log);
+  cyaml_data_t *data = NULL;
+  const cyaml_err_t error =
+      cyaml_load_data((const uint8_t *)source->text, source->length, &configuration, &deck_schema, &data, NULL);
+  if (error == CYAML_ERR_OOM) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
+  if (error || !data)
+    return hypofab_fail(HYPOFAB_BAD_FILE, "%s: %s: %s", source->path, cyaml_strerror(error), log);
+  *filled = data;
+  return HYPOFAB_OK;
+}
+
+static hypofab_status resolve(hypofab_study *study, const deck_source *source) {
+  hypofab_status status = fill_deck(source, &study->deck);
+  if (status) return status;
+  const deck *deck = study->deck;
+  study->unit = deck->unit ? (deck_unit)*deck->unit : DECK_KPA;
+  study->sign = deck->sign ? (deck_sign)*deck->sign : DECK_TENSION_POSITIVE;
+  if (deck->tests_count + deck->envelopes_count == 0)
+    return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("%s", ""),
+                       "nothing to do, expected entries under 'tests' or 'envelopes'");
+  status = study_resolve_materials(study, source);
+  if (!status) status = study_resolve_states(study, source);
+  if (!status) status = study_resolve_tests(study, source);
+  if (!status) status = study_resolve_envelopes(study, source);
+  return status;
+}
+
+hypofab_status hypofab_study_load(const char *path, hypofab_study **study) {
+  if (!study) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "study is NULL, expected a place for the new study");
+  *study = NULL;
+  if (!path) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "path is NULL, expected the path of a deck");
+  hypofab_study *loaded = calloc(1, sizeof *loaded);
+  char *kept_path = strdup(path);
+  deck_source source;
+  hypofab_status status;
+  if (!loaded || !kept_path) {
+    free(kept_path);
+    status = hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", path);
+  } else {
+    loaded->path = kept_path;
+    status = deck_source_open(kept_path, &source);
+    if (!status) {
+      status = resolve(loaded, &source);
+      deck_source_close(&source);
+    }
+  }
+  if (status)
+    hypofab_study_free(loaded);
+  else
+    *study = loaded;
+  return status;
+}
+
+void hypofab_study_free(hypofab_study *study) {
+  if (!study) return;
+  for (unsigned i = 0; study->tests && i < study->deck->tests_count; ++i) free(study->tests[i].steps);
+  for (unsigned i = 0; study->envelopes && i < study->deck->envelopes_count; ++i) free(study->envelopes[i].series);
+  free(study->tests);
+  free(study->envelopes);
+  free(study->states);
+  free(study->materials);
+  const cyaml_config_t configuration = cyaml_configuration(NULL);
+  if (study->deck) cyaml_free(&configuration, &deck_schema, study->deck, 0);
+  free(study->path);
+  free(study);
+}
+
+int hypofab_study_test_count(const hypofab_study *study) { return (int)study->deck->tests_count; }
+
+int hypofab_study_envelope_count(const hypofab_study *study) { return (int)study->deck->envelopes_count; }
+
+const char *hypofab_study_test_name(const hypofab_study *study, int index) {
+  return index >= 0 && index < hypofab_study_test_count(study) ? study->deck->tests[index].name : NULL;
+}
+
+const char *hypofab_study_envelope_name(const hypofab_study *study, int index) {
+  return index >= 0 && index < hypofab_study_envelope_count(study) ? study->deck->envelopes[index].name : NULL;
+}

@@ -1,0 +1,93 @@
+/**
+ * @file study.h
+ * @brief A resolved deck: names replaced by indices, everything in the library's sign and the deck's stress unit.
+ */
+#ifndef HYPOFAB_DECK_STUDY_H
+#define HYPOFAB_DECK_STUDY_H
+
+#include <stdbool.h>
+
+#include "deck/schema.h"
+#include "deck/source.h"
+#include "hypofab.h"
+
+/** A state, and the fabric its intergranular strain came from. */
+typedef struct study_state {
+  unsigned material; /**< index into hypofab_study.materials */
+  hypofab_state initial;
+  bool has_fabric;
+  hypofab_fabric fabric;
+  hypofab_initial_delta map;
+  double c;          /**< parameter of the weight function */
+} study_state;
+
+/** A test; its steps run from states[state]. */
+typedef struct study_test {
+  unsigned state;
+  hypofab_test_options options;
+  hypofab_step *steps;
+  unsigned n_steps;
+} study_test;
+
+/** One curve of an envelope: a state, with the material it is probed with. */
+typedef struct study_series {
+  hypofab_material material;
+  hypofab_state state;
+} study_series;
+
+typedef struct study_envelope {
+  int axis;
+  unsigned probes;
+  double size;
+  study_series *series;
+  unsigned n_series;
+} study_envelope;
+
+/** Each array is parallel to the deck's of the same name. */
+struct hypofab_study {
+  char *path;
+  deck *deck;
+  deck_unit unit;
+  deck_sign sign;
+  hypofab_material *materials;
+  study_state *states;
+  study_test *tests;
+  study_envelope *envelopes;
+};
+
+/** The library's tension-positive value of a deck's number with a sign, and back: +1 or -1. */
+static inline double study_sign(const hypofab_study *study) {
+  return study->sign == DECK_COMPRESSION_POSITIVE ? -1.0 : 1.0;
+}
+
+/** Has a material intergranular strain? (m_R <= 0.5 switches it off.) */
+static inline bool study_has_intergranular(const hypofab_material *material) { return material->m_R > 0.5; }
+
+/** Does a quantity change sign under compression_positive? Stress, strain, eps_v and delta do; p, q, eps_q, rho do not. */
+bool study_quantity_has_sign(hypofab_quantity quantity);
+
+/* Each resolves one list of the deck into the study; arrays are allocated, references are to lists resolved before.
+ * Errors: a refusal of the deck with file, line, key, value and what was expected; HYPOFAB_NO_MEMORY. */
+hypofab_status study_resolve_materials(hypofab_study *study, const deck_source *source);
+hypofab_status study_resolve_states(hypofab_study *study, const deck_source *source);
+hypofab_status study_resolve_tests(hypofab_study *study, const deck_source *source);
+hypofab_status study_resolve_envelopes(hypofab_study *study, const deck_source *source);
+
+/** Is the name of entry number index of "tests" or "envelopes" fit for a file, and its own among all of both? */
+hypofab_status study_check_name(const hypofab_study *study, const deck_source *source, const char *list,
+                                unsigned index);
+
+/** Is a text made of letters, digits, - _ . alone, not starting with a dot? */
+bool study_is_plain_name(const char *text);
+
+/** Intergranular strain of state number index, by whichever of its five sources the deck names. */
+hypofab_status study_resolve_delta(hypofab_study *study, const deck_source *source, unsigned index);
+
+/** Six conditions, end and row spacing of a step; test and index are for messages. */
+hypofab_status study_resolve_step(const hypofab_study *study, const deck_source *source, unsigned test, unsigned index,
+                                  hypofab_step *step);
+
+/** Refuse a step whose end its own conditions keep out of reach, as far as that shows without integrating. */
+hypofab_status study_check_reach(const hypofab_study *study, const deck_source *source, unsigned test);
+
+#endif
