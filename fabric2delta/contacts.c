@@ -1,7 +1,6 @@
 /* Contact lists. A new DEM format is one function that hands its contacts to contact_sum_add, and one row of the table
  * `formats`. */
 #include <math.h>
-#include <stdio.h>
 
 #include "base/message.h"
 #include "fabric2delta/contact_sum.h"

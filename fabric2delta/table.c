@@ -1,7 +1,6 @@
 #define _GNU_SOURCE /* strtod_l */
 #include "fabric2delta/table.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -75,6 +74,8 @@ static void receive_field(void *text, size_t length, void *user) {
       size_t kept = length < TABLE_CELL ? length : TABLE_CELL - 1;
       memcpy(data->cell[k], text, kept);
       data->cell[k][kept] = '\0';
+      /* A field cut short must not pass for a number: the dots see to that. */
+      if (kept < length) memcpy(data->cell[k] + kept - 3, "...", 3);
     }
 }
 

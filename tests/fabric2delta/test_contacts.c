@@ -185,6 +185,8 @@ static void test_refused_numbers(void **state) {
   refuse(HEADER "1 2 nan 0 0\n", ":2: column 3 (nx): 'nan' is not finite", "expected");
   refuse(HEADER "1 2 0 inf 0\n", ":2: column 4 (ny): 'inf' is not finite", "expected");
   refuse(HEADER "1 2 0 0 1e999\n", ":2: column 5 (nz): '1e999' is not finite", "expected");
+  refuse(HEADER "1 2 0.99999999999999999999999999999999999999999999999999999999999999999e-9 0 1\n",
+         ":2: column 3 (nx): '0.9999", "9...' is not a number");
   refuse("id1,id2,nx,ny,nz\n1,2,,0,1\n", ":2: column 3 (nx): '' is not a number", "expected");
   refuse("id1;id2;nx;ny;nz\n1;2;0,6;0,8;0\n", ":2: 3 columns", "expected 5 as in the header");
 }
