@@ -182,7 +182,7 @@ typedef struct hypofab_update_options {
 typedef struct hypofab_update_report {
   int evaluations;       /**< rate evaluations */
   hypofab_branch branch; /**< branch at the end of the increment */
-  double substep;        /**< fraction of the increment the error control suggests for the next substep, in (0, 1] */
+  double substep;        /**< |strain| that the error control suggests for the next substep; 0: none was made */
 } hypofab_update_report;
 
 /**

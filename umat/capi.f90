@@ -2,16 +2,16 @@
 !>
 !> Purposes, arguments and errors are documented in hypofab.h. A hypofab_material is sixteen doubles in the order of
 !> PROPS, a hypofab_state thirteen doubles: stress, delta, void ratio.
-module hypofab_capi
+module umat_capi
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_ptr, c_loc, c_f_pointer, c_associated, c_null_char
-  use hypofab_material, only: material_type, material_from_props, check_props, parameters, parameter_type, n_parameters
-  use hypofab_rate, only: state_type, state_rate, choose_branch, linear_parts
-  use hypofab_sands, only: sands, sand_type, n_sands, find_sand
-  use hypofab_status
-  use hypofab_tensor, only: norm, friction_angle
-  use hypofab_update, only: options_type, report_type, update_state
-  use hypofab_wolffersdorff, only: in_domain
+  use umat_material, only: material_type, material_from_props, check_props, parameters, parameter_type, n_parameters
+  use umat_rate, only: state_type, state_rate, linear_parts
+  use umat_sands, only: sands, sand_type, n_sands, find_sand
+  use umat_status
+  use umat_tensor, only: norm, friction_angle
+  use umat_update, only: options_type, report_type, update_state
+  use umat_wolffersdorff, only: in_domain
   implicit none
   private
 
@@ -167,8 +167,7 @@ contains
     integer :: taken
 
     m = material_from_props(props)
-    taken = choose_branch(m, state%delta, stretching)
-    call state_rate(m, state_type(state%stress, state%delta, state%void_ratio), stretching, taken, r, status)
+    call state_rate(m, state_type(state%stress, state%delta, state%void_ratio), stretching, r, taken, status)
     if (status /= status_ok) then
       status = fail(status, domain_message)
       return
@@ -187,6 +186,7 @@ contains
     type(material_type) :: m
     real(c_double) :: matrix(6, 6), vector(6), unit(6)
 
+    matrix = 0.0_c_double ! gfortran 12 does not see that linear_parts defines it
     m = material_from_props(props)
     call linear_parts(m, state_type(state%stress, state%delta, state%void_ratio), matrix, vector, unit, status)
     if (status /= status_ok) then
@@ -266,4 +266,4 @@ contains
     same = fail(status, what//' number '//trim(given)//' does not exist, expected 0 to '//trim(last))
   end function fail_number
 
-end module hypofab_capi
+end module umat_capi

@@ -6,12 +6,12 @@
 !> where scale = rho^chi m_T + (1 - rho^chi) m_R and turn is, for
 !>   delta:D >  0: rho^chi (1 - m_T) L:deltahat + rho^chi N   (loading)
 !>   delta:D <= 0: rho^chi (m_R - m_T) L:deltahat             (reversal)
-module hypofab_intergranular
-  use hypofab_kinds, only: wp
-  use hypofab_material, only: material_type
-  use hypofab_status, only: branch_loading, branch_reversal
-  use hypofab_tensor, only: ddot, norm
-  use hypofab_wolffersdorff, only: hypoplastic_type, apply_L
+module umat_intergranular
+  use umat_kinds, only: wp
+  use umat_material, only: material_type
+  use umat_status, only: branch_loading, branch_reversal
+  use umat_tensor, only: ddot, norm
+  use umat_wolffersdorff, only: hypoplastic_type, apply_L
   implicit none
   private
   public :: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, delta_rate
@@ -88,4 +88,4 @@ contains
     end if
   end function delta_rate
 
-end module hypofab_intergranular
+end module umat_intergranular

@@ -2,7 +2,7 @@
 !>
 !> Double precision; the tests compile the same sources in quadruple precision (HYPOFAB_QUADRUPLE) to check derivatives
 !> and rounding against a more exact arithmetic.
-module hypofab_kinds
+module umat_kinds
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
@@ -11,4 +11,4 @@ module hypofab_kinds
 #else
   integer, parameter, public :: wp = real64
 #endif
-end module hypofab_kinds
+end module umat_kinds

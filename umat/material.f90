@@ -1,10 +1,10 @@
 !> Material parameters: names, order, units, bounds and validation, in this one place.
 !>
 !> The order is that of PROPS(1..16) of the UMAT and of hypofab_material in hypofab.h.
-module hypofab_material
+module umat_material
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use hypofab_kinds, only: wp
-  use hypofab_status, only: status_ok, status_bad_material
+  use umat_kinds, only: wp
+  use umat_status, only: status_ok, status_bad_material
   implicit none
   private
   public :: material_type, parameter_type, material_from_props, check_props
@@ -176,4 +176,4 @@ contains
               ((props(i_e_i0) - props(i_e_d0)) / (props(i_e_c0) - props(i_e_d0)))**props(i_alpha)
   end function stiffness_bracket
 
-end module hypofab_material
+end module umat_material

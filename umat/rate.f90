@@ -1,14 +1,14 @@
 !> State -> rate of state: the one function everything else calls.
-module hypofab_rate
-  use hypofab_kinds, only: wp
-  use hypofab_intergranular, only: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, delta_rate
-  use hypofab_material, only: material_type
-  use hypofab_status, only: status_ok, branch_plain, branch_loading, branch_reversal
-  use hypofab_tensor, only: ddot, norm, trace, multiplicity
-  use hypofab_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L
+module umat_rate
+  use umat_kinds, only: wp
+  use umat_intergranular, only: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, delta_rate
+  use umat_material, only: material_type
+  use umat_status, only: status_ok, branch_plain, branch_loading, branch_reversal
+  use umat_tensor, only: ddot, norm, trace, multiplicity
+  use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L
   implicit none
   private
-  public :: state_type, state_rate, choose_branch, linear_parts, continuum_stiffness
+  public :: state_type, state_rate, rate_of_stress, choose_branch, linear_parts, continuum_stiffness
 
   !> State of a material point, or its rate.
   type :: state_type
@@ -31,42 +31,53 @@ contains
     end if
   end function choose_branch
 
-  !> Rates of stress, delta and void ratio on a given branch.
+  !> Rate of stress on a given branch; theory.md Eq. (11) for the plain model, Eq. (13) otherwise. Corotational.
   !>
-  !> theory.md Eq. (11) for the plain model, Eqs. (13) and (14) otherwise, Eq. (15) for the void ratio. Rates of
-  !> tensors are corotational. The branch is an argument, so that an integrator can stay on a smooth right-hand side.
-  !> @param m          material
-  !> @param state      inside the model's domain
-  !> @param stretching D [1/time]
-  !> @param branch     from choose_branch
-  !> @param rate       rate of the state [per time]; zero on failure
-  !> @param status     status_ok or status_out_of_domain
-  pure subroutine state_rate(m, state, stretching, branch, rate, status)
+  !> The branch is an argument, so that an integrator can stay on a smooth right-hand side.
+  !> @param m           material
+  !> @param state       inside the model's domain
+  !> @param stretching  D [1/time]
+  !> @param branch      from choose_branch
+  !> @param stress_rate [stress/time]; zero on failure
+  !> @param status      status_ok or status_out_of_domain
+  pure subroutine rate_of_stress(m, state, stretching, branch, stress_rate, status)
     type(material_type), intent(in) :: m
     type(state_type), intent(in) :: state
     real(wp), intent(in) :: stretching(6)
     integer, intent(in) :: branch
-    type(state_type), intent(out) :: rate
+    real(wp), intent(out) :: stress_rate(6)
     integer, intent(out) :: status
     type(hypoplastic_type) :: h
     type(intergranular_type) :: g
 
+    stress_rate = 0.0_wp
     call hypoplastic_tensors(m, state%stress, state%void_ratio, h, status)
-    if (status /= status_ok) then
-      rate = state_type(0.0_wp, 0.0_wp, 0.0_wp)
-      return
-    end if
+    if (status /= status_ok) return
     if (branch == branch_plain) then
-      rate%stress = apply_L(h, stretching) + norm(stretching) * h%N
-      rate%delta = 0.0_wp
+      stress_rate = apply_L(h, stretching) + norm(stretching) * h%N
     else
       g = intergranular_direction(m, state%delta)
-      rate%stress = scale_of(m, g) * apply_L(h, stretching) + &
+      stress_rate = scale_of(m, g) * apply_L(h, stretching) + &
                     ddot(g%direction, stretching) * turn_of(m, h, g, branch)
-      rate%delta = delta_rate(m, g, stretching, branch)
     end if
-    ! Eq. (15): grains do not change their volume.
-    rate%void_ratio = (1.0_wp + state%void_ratio) * trace(stretching)
+  end subroutine rate_of_stress
+
+  !> Rates of stress, delta and void ratio: theory.md Eqs. (11) or (13), (14) and (15). Rates of tensors are corotational.
+  !> @param rate   rate of the state [per time]; zero on failure
+  !> @param branch the branch taken
+  pure subroutine state_rate(m, state, stretching, rate, branch, status)
+    type(material_type), intent(in) :: m
+    type(state_type), intent(in) :: state
+    real(wp), intent(in) :: stretching(6)
+    type(state_type), intent(out) :: rate
+    integer, intent(out) :: branch, status
+
+    rate = state_type(0.0_wp, 0.0_wp, 0.0_wp)
+    branch = choose_branch(m, state%delta, stretching)
+    call rate_of_stress(m, state, stretching, branch, rate%stress, status)
+    if (status /= status_ok) return
+    if (m%intergranular) rate%delta = delta_rate(m, intergranular_direction(m, state%delta), stretching, branch)
+    rate%void_ratio = (1.0_wp + state%void_ratio) * trace(stretching) ! Eq. (15): grains keep their volume
   end subroutine state_rate
 
   !> The linear parts of the stress rate.
@@ -86,11 +97,14 @@ contains
     real(wp) :: turn(6)
     integer :: j
 
+    reversal = 0.0_wp
+    jump = 0.0_wp
+    direction = 0.0_wp
     call hypoplastic_tensors(m, state%stress, state%void_ratio, h, status)
+    if (status /= status_ok) return
     reversal = matrix_of_L(h)
     jump = h%N
-    direction = 0.0_wp
-    if (status /= status_ok .or. .not. m%intergranular) return
+    if (.not. m%intergranular) return
     g = intergranular_direction(m, state%delta)
     turn = turn_of(m, h, g, branch_reversal)
     reversal = scale_of(m, g) * reversal
@@ -130,4 +144,4 @@ contains
     end do
   end subroutine continuum_stiffness
 
-end module hypofab_rate
+end module umat_rate

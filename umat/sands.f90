@@ -1,7 +1,7 @@
 !> Built-in sands: published parameter sets, each with its source. A newcomer adds one row here.
-module hypofab_sands
-  use hypofab_kinds, only: wp
-  use hypofab_material, only: n_parameters
+module umat_sands
+  use umat_kinds, only: wp
+  use umat_material, only: n_parameters
   implicit none
   private
   public :: sand_type, find_sand
@@ -74,4 +74,4 @@ contains
     end do
   end function find_sand
 
-end module hypofab_sands
+end module umat_sands

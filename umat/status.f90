@@ -1,7 +1,7 @@
 !> Status codes of the library, the same numbers as hypofab_status in hypofab.h.
 !>
 !> 1..99: a physical finding, 100..199: bad input, from 200: internal error.
-module hypofab_status
+module umat_status
   implicit none
   public
 
@@ -16,4 +16,4 @@ module hypofab_status
   integer, parameter :: branch_plain = 0
   integer, parameter :: branch_loading = 1
   integer, parameter :: branch_reversal = 2
-end module hypofab_status
+end module umat_status

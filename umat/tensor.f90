@@ -2,9 +2,9 @@
 !>
 !> Shear components are tensor components (eps_xy, not gamma_xy), so every double contraction counts them twice. Nothing
 !> here knows a sign convention or a unit.
-module hypofab_tensor
+module umat_tensor
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use hypofab_kinds, only: wp
+  use umat_kinds, only: wp
   implicit none
   private
   public :: ddot, norm, trace, deviator, trace_of_cube, is_negative_definite, rotate, principal_values
@@ -93,21 +93,32 @@ contains
     b = [m(1, 1), m(2, 2), m(3, 3), m(1, 2), m(1, 3), m(2, 3)]
   end function rotate
 
-  !> Principal values in ascending order, from the trigonometric solution of the characteristic equation.
-  !> Meant for output; the model itself works with invariants.
+  !> Principal values in ascending order, by Jacobi's rotations: exact to rounding also where two of them coincide,
+  !> where the closed form loses half the digits. Meant for output; the model itself works with invariants.
   pure function principal_values(a) result(values)
     real(wp), intent(in) :: a(6)
     real(wp) :: values(3)
-    real(wp) :: d(6), radius, cosine, angle
-    real(wp), parameter :: third_turn = 2.0_wp * acos(-1.0_wp) / 3.0_wp
-    d = deviator(a)
-    radius = norm(d) * sqrt(2.0_wp / 3.0_wp)
-    values = trace(a) / 3.0_wp
-    if (.not. radius > 0.0_wp) return
-    cosine = 4.0_wp * determinant(d / radius)
-    angle = acos(max(-1.0_wp, min(1.0_wp, cosine))) / 3.0_wp
-    ! angle lies in [0, 60 deg], which orders the three cosines.
-    values = values + radius * [cos(angle + third_turn), cos(angle + 2.0_wp * third_turn), cos(angle)]
+    real(wp) :: m(3, 3), rotation(3, 3), cotangent, t, c
+    integer :: sweep, p, q
+    m = reshape([a(1), a(4), a(5), a(4), a(2), a(6), a(5), a(6), a(3)], [3, 3])
+    do sweep = 1, 10 ! converges quadratically; six sweeps reach rounding for any input
+      if (max(abs(m(1, 2)), abs(m(1, 3)), abs(m(2, 3))) <= tiny(t)) exit
+      do p = 1, 2
+        do q = p + 1, 3
+          if (abs(m(p, q)) <= epsilon(t)**2 * maxval(abs(m))) cycle
+          cotangent = (m(q, q) - m(p, p)) / (2.0_wp * m(p, q))
+          t = sign(1.0_wp, cotangent) / (abs(cotangent) + hypot(1.0_wp, cotangent))
+          c = 1.0_wp / hypot(1.0_wp, t)
+          rotation = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1] * 1.0_wp, [3, 3])
+          rotation([p, q], [p, q]) = reshape([c, -t * c, t * c, c], [2, 2])
+          m = matmul(transpose(rotation), matmul(m, rotation))
+        end do
+      end do
+    end do
+    values = [m(1, 1), m(2, 2), m(3, 3)]
+    if (values(1) > values(2)) values(1:2) = values([2, 1])
+    if (values(2) > values(3)) values(2:3) = values([3, 2])
+    if (values(1) > values(2)) values(1:2) = values([2, 1])
   end function principal_values
 
   !> Mobilised friction angle asin((s1 - s3)/(s1 + s3)) [deg] of a stress tensor (tension positive); 90 outside the
@@ -125,4 +136,4 @@ contains
     phi = asin(max(0.0_wp, min(1.0_wp, sine))) * 180.0_wp / acos(-1.0_wp)
   end function friction_angle
 
-end module hypofab_tensor
+end module umat_tensor

@@ -3,15 +3,15 @@
 !> PROPS(16) and STATEV(13) are laid out as in the public sand UMAT, see docs/umat.md. The symbol is umat_; the binding
 !> is C so that a null pointer from the host is an absent argument, as Fortran 2018 defines it. Nothing is printed,
 !> nothing is kept between calls.
-module hypofab_umat
+module umat_entry
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char
-  use hypofab_kinds, only: wp
-  use hypofab_material, only: material_type, material_from_props, check_props, n_parameters
-  use hypofab_rate, only: state_type
-  use hypofab_status, only: status_ok, status_bad_argument
-  use hypofab_tensor, only: norm, rotate, trace, friction_angle, unit_tensor
-  use hypofab_update, only: options_type, report_type, update_state
+  use umat_kinds, only: wp
+  use umat_material, only: material_type, material_from_props, check_props, n_parameters
+  use umat_rate, only: state_type
+  use umat_status, only: status_ok, status_bad_argument
+  use umat_tensor, only: norm, rotate, trace, friction_angle, unit_tensor
+  use umat_update, only: options_type, report_type, update_state
   implicit none
   private
   public :: umat
@@ -72,7 +72,7 @@ contains
     ! Water and grains move together: u grows with compression.
     pore_pressure = pore_pressure - m%K_w * trace(strain)
     call pack_stress(state%stress - pore_pressure * unit_tensor, stress)
-    call pack_statev(m, state, pore_pressure, strain, report, statev)
+    call pack_statev(m, state, pore_pressure, report, statev)
     call pack_tangent(m, tangent, ddsdde)
   end subroutine umat
 
@@ -159,10 +159,10 @@ contains
   end subroutine pack_stress
 
   !> State variables to the host.
-  pure subroutine pack_statev(m, state, pore_pressure, strain, report, statev)
+  pure subroutine pack_statev(m, state, pore_pressure, report, statev)
     type(material_type), intent(in) :: m
     type(state_type), intent(in) :: state
-    real(wp), intent(in) :: pore_pressure, strain(6)
+    real(wp), intent(in) :: pore_pressure
     type(report_type), intent(in) :: report
     real(c_double), intent(inout) :: statev(:)
     if (m%intergranular) statev(sv_delta:sv_delta + 5) = real([state%delta(1:3), 2.0_wp * state%delta(4:6)], c_double)
@@ -172,7 +172,7 @@ contains
     statev(sv_evaluations) = real(report%evaluations, c_double)
     statev(sv_friction_angle) = real(friction_angle(state%stress), c_double)
     statev(sv_rho) = real(norm(state%delta) / merge(m%R, 1.0_wp, m%intergranular), c_double)
-    if (report%evaluations > 0) statev(sv_substep) = real(report%substep * norm(strain), c_double)
+    if (report%substep > 0.0_wp) statev(sv_substep) = real(report%substep, c_double)
   end subroutine pack_statev
 
   !> Stiffness to the host: engineering shear halves the doubly counted columns; pore water adds to the normal block.
@@ -200,4 +200,4 @@ contains
     end if
   end subroutine ask_for_smaller_step
 
-end module hypofab_umat
+end module umat_entry

@@ -1,11 +1,11 @@
 !> The hypoplastic tensors L and N of von Wolffersdorff (1996) from stress and void ratio.
 !>
 !> Tension positive. Equation names as in docs/theory.md, section 2.
-module hypofab_wolffersdorff
-  use hypofab_kinds, only: wp
-  use hypofab_material, only: material_type
-  use hypofab_status, only: status_ok, status_out_of_domain
-  use hypofab_tensor, only: ddot, trace, deviator, trace_of_cube, is_negative_definite, unit_tensor, multiplicity
+module umat_wolffersdorff
+  use umat_kinds, only: wp
+  use umat_material, only: material_type
+  use umat_status, only: status_ok, status_out_of_domain
+  use umat_tensor, only: ddot, trace, deviator, trace_of_cube, is_negative_definite, unit_tensor, multiplicity
   implicit none
   private
   public :: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L, in_domain
@@ -110,4 +110,4 @@ contains
     end do
   end function matrix_of_L
 
-end module hypofab_wolffersdorff
+end module umat_wolffersdorff

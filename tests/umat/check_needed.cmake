@@ -1,0 +1,11 @@
+# libhypofab_umat may need the Fortran and C runtimes (and those of sanitizers) and nothing else.
+execute_process(COMMAND readelf -d ${LIBRARY} OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*\\[[^]]*\\]" needed "${dynamic}")
+if(NOT needed)
+  message(FATAL_ERROR "found no NEEDED entry in ${LIBRARY}")
+endif()
+foreach(entry IN LISTS needed)
+  if(NOT entry MATCHES "\\[(libgfortran|libm|libmvec|libc|libquadmath|libgcc_s|libasan|libubsan|ld-linux)[-.]")
+    message(FATAL_ERROR "${LIBRARY} needs ${entry}")
+  endif()
+endforeach()
