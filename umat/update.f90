@@ -36,6 +36,8 @@ module umat_update
   real(wp), parameter :: largest_increment = 1.0_wp
   !> A smaller fraction of the increment than this is not tried.
   real(wp), parameter :: smallest_substep = 1.0e-10_wp
+  !> A stress that falls to this part of its start on a straight path is on its way to zero, which is outside the domain.
+  real(wp), parameter :: vanishing = 1.0e-8_wp
   !> Part of the tolerance that one substep may use: errors of many substeps and of later increments add up.
   real(wp), parameter :: share = 0.1_wp
 
@@ -168,6 +170,10 @@ contains
         y = y_new
         k(:, 1) = k(:, n_stages) ! the last stage is the first of the next step
         if (last) exit
+        if (norm(y(1:6)) < vanishing * norm(state%stress)) then
+          status = status_out_of_domain
+          return
+        end if
       else if (h * speed_at(path, x + h) < smallest_substep * length) then
         status = obstacle
         return
