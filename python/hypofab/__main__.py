@@ -24,18 +24,24 @@ def save(figure: Figure, stem: Path) -> None:
         print(path)
 
 
-def plot(directory: Path, *, zoom: float | None, compression_positive: bool) -> None:
+def plot(directory: Path, options: argparse.Namespace) -> None:
     """Draw the figures of every test and envelope found in a folder of results, beside the CSV files."""
     has_tests = (directory / "summary.json").exists()
     envelopes = find_envelopes(directory)
     if not has_tests and not envelopes:
         raise ResultError(f"{directory}: neither a summary.json of `hypofab run` nor a file of `hypofab envelope`")
     if has_tests:
-        tests = read_run(directory)
-        save(figures.stress_strain(tests, zoom=zoom), directory / "stress_strain")
-        save(figures.volumetric(tests, compression_positive=compression_positive), directory / "volumetric")
+        run = read_run(directory)
+        zoom = None if options.zoom is None else options.zoom / 100
+        save(figures.stress_strain(run, zoom=zoom), directory / "stress_strain")
+        save(figures.volumetric(run, compression_positive=options.compression_positive), directory / "volumetric")
     for path in envelopes:
-        figure = figures.response_envelopes(read_envelope(path), compression_positive=compression_positive)
+        figure = figures.response_envelopes(
+            read_envelope(path),
+            unit=options.envelope_unit,
+            series_compression_positive=options.envelope_compression_positive,
+            compression_positive=options.compression_positive,
+        )
         save(figure, path.with_suffix(""))
 
 
@@ -51,6 +57,8 @@ def parser() -> argparse.ArgumentParser:
     draw.add_argument("directories", nargs="+", metavar="DIR", type=Path, help="results of hypofab run or envelope")
     draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
+    draw.add_argument("--envelope-unit", default="kPa", metavar="UNIT", help="of the deck of an envelope (kPa)")
+    draw.add_argument("--envelope-compression-positive", action="store_true", help="sign of the deck of an envelope")
     return top
 
 
@@ -62,9 +70,8 @@ def main(arguments: list[str] | None = None) -> int:
             columns = {label: stiffness.secant_stiffness(directory) for label, directory in options.runs}
             print(stiffness.table(columns | stiffness.REFERENCES))
         else:
-            zoom = None if options.zoom is None else options.zoom / 100
             for directory in options.directories:
-                plot(directory, zoom=zoom, compression_positive=options.compression_positive)
+                plot(directory, options)
     except ResultError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

@@ -9,7 +9,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hypofab.results import EnvelopeSeries, TestResult
+from hypofab.results import EnvelopeSeries, Run
 
 STYLE = {
     "font.family": "sans-serif",
@@ -52,7 +52,7 @@ def _legend(figure: Figure, axes: Axes, columns: int) -> None:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=columns, handlelength=2.8)
 
 
-def stress_strain(tests: Sequence[TestResult], *, zoom: float | None = None, stress_unit: str = "kPa") -> Figure:
+def stress_strain(run: Run, *, zoom: float | None = None) -> Figure:
     """Deviatoric stress q over deviatoric strain eps_q (paper 000, Figure 7).
 
     zoom: an inset shows eps_q from 0 to this value [-], e.g. 1e-3; None: no inset.
@@ -60,22 +60,22 @@ def stress_strain(tests: Sequence[TestResult], *, zoom: float | None = None, str
     with rc_context(STYLE):
         figure = Figure(figsize=COLUMN, layout="constrained")
         axes = figure.add_subplot()
-        for index, test in enumerate(tests):
+        for index, test in enumerate(run.tests):
             axes.plot(100 * test.eps_q, test.q, label=test.name, **line_style(index))
-        axes.set(xlabel=r"deviatoric strain $\varepsilon_q$ [%]", ylabel=rf"deviatoric stress $q$ [{stress_unit}]")
+        axes.set(xlabel=r"deviatoric strain $\varepsilon_q$ [%]", ylabel=rf"deviatoric stress $q$ [{run.unit}]")
         axes.set_xlim(left=0)
         axes.set_ylim(bottom=0)
         if zoom is not None:
-            _zoom_inset(axes, tests, zoom)
+            _zoom_inset(axes, run, zoom)
         _legend(figure, axes, columns=4)
         return figure
 
 
-def _zoom_inset(axes: Axes, tests: Sequence[TestResult], zoom: float) -> None:
+def _zoom_inset(axes: Axes, run: Run, zoom: float) -> None:
     """An inset in the lower right of the axes with eps_q from 0 to zoom."""
     inset = axes.inset_axes((0.40, 0.14, 0.56, 0.50))
     top = 0.0
-    for index, test in enumerate(tests):
+    for index, test in enumerate(run.tests):
         shown = test.eps_q <= zoom * (1 + 1e-9)
         top = max(top, test.q[shown].max(initial=0.0))
         inset.plot(100 * test.eps_q, test.q, **line_style(index))
@@ -85,20 +85,18 @@ def _zoom_inset(axes: Axes, tests: Sequence[TestResult], zoom: float) -> None:
     inset.locator_params(nbins=5)
 
 
-def volumetric(
-    tests: Sequence[TestResult], *, compression_positive: bool = False, file_compression_positive: bool = False
-) -> Figure:
+def volumetric(run: Run, *, compression_positive: bool = False) -> Figure:
     """Volumetric strain eps_v over deviatoric strain eps_q (paper 000, Figure 8).
 
-    compression_positive: sign of eps_v in the figure; file_compression_positive: that of the results.
+    compression_positive: sign of eps_v in the figure, whatever that of the results.
     """
-    sign = 1 if compression_positive == file_compression_positive else -1
+    sign = 1 if compression_positive == run.compression_positive else -1
     meaning = "contraction" if compression_positive else "dilation"
     with rc_context(STYLE):
         figure = Figure(figsize=COLUMN, layout="constrained")
         axes = figure.add_subplot()
         axes.axhline(0, color="0.4", linewidth=0.8)
-        for index, test in enumerate(tests):
+        for index, test in enumerate(run.tests):
             axes.plot(100 * test.eps_q, 100 * sign * test.eps_v, label=test.name, **line_style(index))
         axes.set(
             xlabel=r"deviatoric strain $\varepsilon_q$ [%]",
@@ -109,34 +107,36 @@ def volumetric(
         return figure
 
 
-def _arrow(axes: Axes, x: float, y: float, *, length: float, style: dict) -> None:
-    """An arrow of the given length from the origin along (x, y), marked as delta; none for a vanishing vector."""
+def _arrow(axes: Axes, x: float, y: float, *, style: dict) -> None:
+    """An arrow from the origin to (x, y), marked as delta; none for a vanishing vector."""
     size = (x**2 + y**2) ** 0.5
     if size == 0:
         return
-    tip = (length * x / size, length * y / size)
     arrow = {"arrowstyle": "-|>", "color": style["color"], "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0, "zorder": 3}
-    axes.annotate("", xy=tip, xytext=(0, 0), arrowprops=arrow)
+    axes.annotate("", xy=(x, y), xytext=(0, 0), arrowprops=arrow)
     offset = (9 * x / size, 9 * y / size)
     axes.annotate(
-        r"$\boldsymbol{\delta}$", tip, offset, textcoords="offset points", ha="center", va="center", color="black"
+        r"$\boldsymbol{\delta}$", (x, y), offset, textcoords="offset points", ha="center", va="center", color="black"
     )
 
 
 def response_envelopes(
     series: Sequence[EnvelopeSeries],
     *,
+    unit: str = "kPa",
+    series_compression_positive: bool = False,
     compression_positive: bool = False,
-    file_compression_positive: bool = False,
-    stress_unit: str = "kPa",
 ) -> Figure:
     """Response envelopes around the stress T0 in the axisymmetric plane (paper 000, Figure 1).
 
     The plane is isometric: sqrt(2) times the lateral over the axial stress rate, both per unit strain rate. An arrow in
-    the line's colour shows the direction of the intergranular strain of each state that has one.
+    the line's colour shows the intergranular strain of each state that has one, to the scale of R.
+
+    unit, series_compression_positive: unit of stress and sign of the results, which the file does not tell.
+    compression_positive: sign in the figure.
     """
-    sign = 1 if compression_positive == file_compression_positive else -1
-    factor, unit = (1e-3, "MPa") if stress_unit == "kPa" else (1.0, stress_unit)
+    sign = 1 if compression_positive == series_compression_positive else -1
+    factor, unit = (1e-3, "MPa") if unit == "kPa" else (1.0, unit)
     with rc_context(STYLE):
         figure = Figure(figsize=(110 / INCH, 115 / INCH), layout="constrained")
         axes = figure.add_subplot()
@@ -147,7 +147,8 @@ def response_envelopes(
             lateral, axial = (sign * factor * values for values in (state.lateral, state.axial))
             closed = [*range(len(axial)), 0]
             axes.plot(lateral[closed], axial[closed], label=state.name, **line_style(index))
-            _arrow(axes, sign * state.delta[1], sign * state.delta[0], length=0.5 * reach, style=line_style(index))
+            scale = sign * 0.5 * reach  # |delta| = R: half of the largest response
+            _arrow(axes, scale * state.delta[1], scale * state.delta[0], style=line_style(index))
         axes.plot(0, 0, marker="o", markersize=4, color="black")
         axes.annotate(r"$\mathbf{T}_0$", xy=(0, 0), xytext=(5, -12), textcoords="offset points")
         axes.set_aspect("equal", adjustable="datalim")

@@ -1,7 +1,7 @@
 """Read the result files of `hypofab run` and `hypofab envelope`.
 
 Tensors are arrays with the components xx yy zz xy xz yz (tensor components, not engineering shear) in the last axis.
-Signs are those of the file: tension positive unless the deck asked for compression positive.
+Units and signs are those of the deck: tension positive unless it asked for compression positive.
 """
 
 import csv
@@ -44,6 +44,18 @@ class TestResult:
 
 
 @dataclass(frozen=True)
+class Run:
+    """Results of one deck."""
+
+    unit: str
+    """Unit of stress: Pa, kPa or MPa."""
+    compression_positive: bool
+    """Sign of stress, strain and delta."""
+    tests: tuple[TestResult, ...]
+    """The tests that ran, in the order of the deck."""
+
+
+@dataclass(frozen=True)
 class EnvelopeSeries:
     """Response envelope of one state: probes in the axisymmetric plane, in the order of their angle."""
 
@@ -55,7 +67,7 @@ class EnvelopeSeries:
     lateral: Array
     """sqrt(2) times the mean lateral stress response, shape (probes,): the plane is isometric."""
     delta: tuple[float, float]
-    """Axial and lateral part of the intergranular strain of the state, in the same isometric measure."""
+    """Axial and lateral part of delta/R of the state, in the same isometric measure; (0, 0) without delta."""
 
 
 def _read_columns(path: Path) -> dict[str, list[str]]:
@@ -153,7 +165,12 @@ def read_summary(directory: str | Path) -> dict:
         raise ResultError(f"{path}: {error}") from error
 
 
-def read_run(directory: str | Path) -> list[TestResult]:
-    """Every test of a run, in the order of the deck."""
-    directory = Path(directory)
-    return [read_test(directory / f"{test['name']}.csv") for test in read_summary(directory)["tests"]]
+def read_run(directory: str | Path) -> Run:
+    """Results of `hypofab run`: summary.json and the file of each test that ran."""
+    summary = read_summary(directory)
+    files = [test["file"] for test in summary["tests"] if test["file"] is not None]
+    return Run(
+        unit=summary["unit"],
+        compression_positive=summary["sign"] == "compression_positive",
+        tests=tuple(read_test(Path(directory) / file) for file in files),
+    )

@@ -13,18 +13,24 @@ REFERENCES = {
 }
 
 
-def secant_stiffness(directory: str | Path) -> dict[str, float]:
-    """Secant stiffness q/eps_q at the end of the first step of each test of a run, in the deck's unit of stress.
+KILOPASCALS = {"Pa": 1e-3, "kPa": 1.0, "MPa": 1e3}
 
-    A test that stopped before the end of its first step has none and is left out.
+
+def secant_stiffness(directory: str | Path) -> dict[str, float]:
+    """Secant stiffness q/eps_q [kPa] at the end of the first step of each test of a run.
+
+    A test without one is left out: it stopped before the end of its first step, or had no deviatoric strain there.
     """
-    stiffness = {}
-    for test in read_summary(directory)["tests"]:
-        value = test["steps"][0].get("secant_stiffness") if test["steps"] else None
-        if value is not None and (test["status"] == 0 or len(test["steps"]) > 1):
-            stiffness[test["name"]] = float(value)
+    summary = read_summary(directory)
+    first_steps = {test["name"]: test["steps"][0] for test in summary["tests"] if test["steps"]}
+    factor = KILOPASCALS[summary["unit"]]
+    stiffness = {
+        name: factor * step["secant_stiffness"]
+        for name, step in first_steps.items()
+        if step["reached"] and step["secant_stiffness"] is not None  # null: no deviatoric strain
+    }
     if not stiffness:
-        raise ResultError(f"{directory}: no test reached the end of its first step")
+        raise ResultError(f"{directory}: no test has a secant stiffness at the end of its first step")
     return stiffness
 
 

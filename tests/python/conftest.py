@@ -34,6 +34,11 @@ def columns_of_test(stiffness: float) -> dict[str, np.ndarray]:
     return columns | {name: np.broadcast_to(value, ROWS) for name, value in scalars.items()}
 
 
+def write_summary(directory: Path, tests: list[dict], unit: str = "kPa", sign: str = "tension_positive") -> None:
+    summary = {"unit": unit, "sign": sign, "tests": tests}
+    (directory / "summary.json").write_text(json.dumps(summary))
+
+
 @pytest.fixture
 def run_directory(tmp_path: Path) -> Path:
     """Results of a run with the tests "stiff" (40 MPa) and "soft" (10 MPa)."""
@@ -41,10 +46,10 @@ def run_directory(tmp_path: Path) -> Path:
     for name, value in stiffness.items():
         write_csv(tmp_path / f"{name}.csv", columns_of_test(value))
     tests = [
-        {"name": name, "status": 0, "status_text": "ok", "rows": ROWS, "steps": [{"secant_stiffness": value}] * 2}
+        {"name": name, "file": f"{name}.csv", "steps": [{"reached": True, "secant_stiffness": value}] * 2}
         for name, value in stiffness.items()
     ]
-    (tmp_path / "summary.json").write_text(json.dumps({"tests": tests}))
+    write_summary(tmp_path, tests)
     return tmp_path
 
 
@@ -55,7 +60,7 @@ def envelope_file(tmp_path: Path) -> Path:
     rows: dict[str, list] = {
         name: [] for name in ("series", "angle", "response_axial", "response_lateral", "delta_axial", "delta_lateral")
     }
-    for name, radius, delta in (("inner", 10e3, 0.0), ("outer", 30e3, -1e-4)):
+    for name, radius, delta in (("inner", 10e3, 0.0), ("outer", 30e3, -1.0)):
         rows["series"] += [name] * len(angle)
         rows["angle"] += list(angle)
         rows["response_axial"] += list(radius * np.cos(np.radians(angle)))

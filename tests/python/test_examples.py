@@ -9,7 +9,7 @@ import pytest
 
 from hypofab import paper000
 from hypofab.__main__ import main
-from hypofab.results import TestResult, read_envelope, read_run, read_summary
+from hypofab.results import read_envelope, read_run, read_summary
 from hypofab.stiffness import secant_stiffness
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -50,14 +50,14 @@ def test_stiffness_is_that_of_the_exact_integration_and_near_the_paper(paper_run
 
 
 def test_stiffness_of_the_summary_is_that_of_the_rows(paper_run: Path) -> None:
-    for test, name_and_value in zip(read_run(paper_run), secant_stiffness(paper_run).items(), strict=True):
+    for test, name_and_value in zip(read_run(paper_run).tests, secant_stiffness(paper_run).items(), strict=True):
         end = np.flatnonzero(test.step == 0)[-1]
         assert test.eps_q[end] == pytest.approx(1e-3, rel=1e-6)
         assert name_and_value == (test.name, pytest.approx(test.q[end] / test.eps_q[end], rel=1e-6))
 
 
 def test_loading_ends_at_ten_percent_and_held_stresses_stay_held(paper_run: Path) -> None:
-    for test in read_run(paper_run):
+    for test in read_run(paper_run).tests:
         loaded = 0 if test.name.endswith("-90") else 1  # x or y
         held = [component for component in range(6) if component != loaded]
         assert test.strain[-1, loaded] == pytest.approx(-0.1, rel=1e-6)
@@ -67,8 +67,7 @@ def test_loading_ends_at_ten_percent_and_held_stresses_stay_held(paper_run: Path
 def test_measures_of_stress_and_strain_follow_their_definitions(paper_run: Path) -> None:
     weight = np.array([1, 1, 1, 2, 2, 2])  # off-diagonal components count twice
     unit = np.array([1, 1, 1, 0, 0, 0])
-    test: TestResult
-    for test in read_run(paper_run):
+    for test in read_run(paper_run).tests:
         p = -test.stress @ unit / 3
         deviator = test.stress + p[:, None] * unit
         eps_v = test.strain @ unit

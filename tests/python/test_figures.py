@@ -1,5 +1,6 @@
 """Figures: what they show, with which sign, and that nothing covers the data."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,8 +32,8 @@ def test_zoom_covers_the_range_asked_for_and_all_curves_in_it(run_directory: Pat
 @pytest.mark.parametrize("wanted", [False, True])
 @pytest.mark.parametrize("in_file", [False, True])
 def test_volumetric_sign(run_directory: Path, wanted: bool, in_file: bool) -> None:
-    tests = read_run(run_directory)
-    axes = volumetric(tests, compression_positive=wanted, file_compression_positive=in_file).axes[0]
+    run = replace(read_run(run_directory), compression_positive=in_file)
+    axes = volumetric(run, compression_positive=wanted).axes[0]
     curve = next(line for line in axes.lines if line.get_label() == "stiff")
     expected = -0.25 * curve.get_xdata() * (1 if wanted == in_file else -1)
     np.testing.assert_allclose(curve.get_ydata(), expected)

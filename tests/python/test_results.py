@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import write_summary
 
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run, read_summary, read_test
 
@@ -19,8 +20,19 @@ def test_columns_reach_their_fields(run_directory: Path) -> None:
     assert test.step[-1] == 1
 
 
-def test_run_keeps_the_order_of_the_deck(run_directory: Path) -> None:
-    assert [test.name for test in read_run(run_directory)] == ["stiff", "soft"]
+def test_run_keeps_the_order_of_the_deck_its_unit_and_its_sign(run_directory: Path) -> None:
+    run = read_run(run_directory)
+    assert [test.name for test in run.tests] == ["stiff", "soft"]
+    assert (run.unit, run.compression_positive) == ("kPa", False)
+
+
+def test_a_test_that_did_not_run_is_left_out(run_directory: Path) -> None:
+    tests = read_summary(run_directory)["tests"]
+    tests[1] |= {"file": None, "steps": []}
+    write_summary(run_directory, tests, sign="compression_positive")
+    run = read_run(run_directory)
+    assert [test.name for test in run.tests] == ["stiff"]
+    assert run.compression_positive
 
 
 def test_envelope_series_in_file_order_and_sorted_by_angle(envelope_file: Path) -> None:
@@ -29,7 +41,7 @@ def test_envelope_series_in_file_order_and_sorted_by_angle(envelope_file: Path) 
     assert np.all(np.diff(outer.angle) > 0)
     np.testing.assert_allclose(np.hypot(outer.axial, outer.lateral), 30e3)
     assert inner.delta == (0, 0)
-    assert outer.delta == (-1e-4, 0)
+    assert outer.delta == (-1, 0)
 
 
 def test_envelopes_are_told_from_tests(run_directory: Path, envelope_file: Path) -> None:

@@ -1,12 +1,12 @@
 """The table of directional stiffnesses."""
 
-import json
 from pathlib import Path
 
 import pytest
+from conftest import write_summary
 
 from hypofab import paper000
-from hypofab.results import ResultError
+from hypofab.results import ResultError, read_summary
 from hypofab.stiffness import secant_stiffness, table
 
 
@@ -14,14 +14,17 @@ def test_stiffness_of_each_test(run_directory: Path) -> None:
     assert secant_stiffness(run_directory) == {"stiff": 40e3, "soft": 10e3}
 
 
+def test_stiffness_is_converted_to_kilopascals(run_directory: Path) -> None:
+    write_summary(run_directory, read_summary(run_directory)["tests"], unit="MPa")
+    assert secant_stiffness(run_directory) == {"stiff": 40e6, "soft": 10e6}
+
+
 def test_a_test_stopped_in_its_first_step_has_no_stiffness(run_directory: Path) -> None:
-    path = run_directory / "summary.json"
-    summary = json.loads(path.read_text())
-    summary["tests"][0] |= {"status": 1, "steps": summary["tests"][0]["steps"][:1]}
-    path.write_text(json.dumps(summary))
+    stiff, soft = read_summary(run_directory)["tests"]
+    stiff["steps"] = [stiff["steps"][0] | {"reached": False}]
+    write_summary(run_directory, [stiff, soft])
     assert secant_stiffness(run_directory) == {"soft": 10e3}
-    summary["tests"] = summary["tests"][:1]
-    path.write_text(json.dumps(summary))
+    write_summary(run_directory, [stiff])
     with pytest.raises(ResultError, match="no test"):
         secant_stiffness(run_directory)
 
