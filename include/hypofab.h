@@ -172,6 +172,16 @@ hypofab_status hypofab_rate(const hypofab_material *material, const hypofab_stat
 hypofab_status hypofab_linear_parts(const hypofab_material *material, const hypofab_state *state, double reversal[36],
                                     double jump[6], double direction[6], hypofab_branch *branch);
 
+/**
+ * @brief Rate of the intergranular strain on a given branch (theory.md Eq. 14).
+ * @param delta      intergranular strain
+ * @param stretching D [1/time]
+ * @param branch     HYPOFAB_PLAIN gives zero
+ * @param rate       filled [1/time]
+ */
+void hypofab_delta_rate(const hypofab_material *material, const double delta[6], const double stretching[6],
+                        hypofab_branch branch, double rate[6]);
+
 /** Options of hypofab_update; zero in a field takes its default. */
 typedef struct hypofab_update_options {
   double tolerance;     /**< relative local error of stress, delta and void ratio; default 1e-6 */

@@ -5,6 +5,7 @@
 module umat_capi
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_ptr, c_loc, c_f_pointer, c_associated, c_null_char
+  use umat_intergranular, only: intergranular_direction, delta_rate
   use umat_material, only: material_type, material_from_props, check_props, parameters, parameter_type, n_parameters
   use umat_rate, only: state_type, state_rate, linear_parts
   use umat_sands, only: sands, sand_type, n_sands, find_sand
@@ -198,6 +199,17 @@ contains
     direction = unit
     branch = merge(branch_loading, branch_plain, m%intergranular)
   end function linear_parts_c
+
+  pure subroutine delta_rate_c(props, delta, stretching, branch, rate) bind(C, name='hypofab_delta_rate')
+    real(c_double), intent(in) :: props(n_parameters), delta(6), stretching(6)
+    integer(c_int), value :: branch
+    real(c_double), intent(out) :: rate(6)
+    type(material_type) :: m
+    rate = 0.0_c_double
+    if (branch == branch_plain) return
+    m = material_from_props(props)
+    rate = delta_rate(m, intergranular_direction(m, delta), stretching, branch)
+  end subroutine delta_rate_c
 
   function update(props, options, state, strain, tangent, report) result(status) bind(C, name='hypofab_update')
     real(c_double), intent(in) :: props(n_parameters), strain(6)

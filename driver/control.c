@@ -1,0 +1,175 @@
+#include "driver/control.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_poly.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "driver/quantity.h"
+
+/* Smallest ratio of pivots, rows scaled to 1, that still counts as a regular control. */
+static const double singular = 1e-12;
+
+static double dot(const double a[6], const double b[6]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+/* The conditions at one state, solved on the reversal branch (without intergranular strain: without N). */
+typedef struct solved {
+  hypofab_branch model;     /* HYPOFAB_PLAIN, or HYPOFAB_LOADING when the model has two branches */
+  double stiffness[36];     /* of the reversal branch */
+  double jump[6];           /* what loading adds: jump (direction:D), or jump |D| */
+  double direction[6];      /* deltahat */
+  double reversal[6];       /* D on the reversal branch */
+  double response[6];       /* z = S^-1 A jump */
+} solved;
+
+static hypofab_status solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
+                            solved *s) {
+  hypofab_status status =
+      hypofab_linear_parts(material, state, s->stiffness, s->jump, s->direction, &s->model);
+  if (status) return status;
+
+  /* S = A M + B and the right-hand sides c and A jump, rows scaled: stress and strain conditions differ by 1e5. */
+  double matrix[36], conditions[6], jumps[6];
+  for (int i = 0; i < 6; i++) {
+    double row[6], along_jump = 0.0, largest = 0.0;
+    for (int j = 0; j < 6; j++) row[j] = step->on_strain[i][j];
+    for (int k = 0; k < 6; k++) {
+      const double a = step->on_stress[i][k];
+      if (a == 0.0) continue;
+      for (int j = 0; j < 6; j++) row[j] += a * s->stiffness[6 * k + j];
+      along_jump += a * s->jump[k];
+    }
+    for (int j = 0; j < 6; j++) largest = fmax(largest, fabs(row[j]));
+    if (largest == 0.0) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
+    for (int j = 0; j < 6; j++) matrix[6 * i + j] = row[j] / largest;
+    conditions[i] = step->rate[i] / largest;
+    jumps[i] = along_jump / largest;
+  }
+  size_t order[6];
+  gsl_permutation permutation = {6, order};
+  gsl_matrix_view S = gsl_matrix_view_array(matrix, 6, 6);
+  int sign;
+  gsl_linalg_LU_decomp(&S.matrix, &permutation, &sign);
+  /* Checked here, because GSL's own error handler ends the program. */
+  double smallest = INFINITY;
+  for (int i = 0; i < 6; i++) smallest = fmin(smallest, fabs(matrix[7 * i]));
+  if (!(smallest > singular))
+    return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the prescribed rates are singular at this state");
+  gsl_vector_view c = gsl_vector_view_array(conditions, 6), j = gsl_vector_view_array(jumps, 6);
+  gsl_vector_view d = gsl_vector_view_array(s->reversal, 6), z = gsl_vector_view_array(s->response, 6);
+  gsl_linalg_LU_solve(&S.matrix, &permutation, &c.vector, &d.vector);
+  gsl_linalg_LU_solve(&S.matrix, &permutation, &j.vector, &z.vector);
+  return HYPOFAB_OK;
+}
+
+/* g = det(loading)/det(reversal); see control_choose_branch. */
+static double determinant_ratio(const solved *s) { return 1.0 + dot(s->direction, s->response); }
+
+/* Without intergranular strain D = u - z |D|; squared, a quadratic equation for |D| >= 0. */
+static hypofab_status plain_size(const solved *s, double *size) {
+  double root[2];
+  const double a = dot(s->response, s->response) - 1.0, b = -2.0 * dot(s->reversal, s->response);
+  const double c = dot(s->reversal, s->reversal);
+  const int n_real = gsl_poly_solve_quadratic(a, b, c, &root[0], &root[1]);
+  int n_admissible = 0;
+  for (int i = 0; i < n_real; i++)
+    if (root[i] >= 0.0 && (i == 0 || root[i] != root[0])) *size = root[i], n_admissible++;
+  if (c == 0.0) { /* nothing is prescribed to move */
+    *size = 0.0;
+    return HYPOFAB_OK;
+  }
+  if (n_admissible == 0)
+    return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "no strain rate satisfies the prescribed rates (a peak or limit state)");
+  if (n_admissible == 2) return hypofab_fail(HYPOFAB_NOT_UNIQUE, "two strain rates satisfy the prescribed rates");
+  return HYPOFAB_OK;
+}
+
+/* A component that a condition prescribes alone takes the prescribed rate to the last bit. */
+static void impose(const hypofab_step *step, control_rates *rates) {
+  for (int i = 0; i < 6; i++) {
+    int n_stress = 0, n_strain = 0, k_stress = 0, k_strain = 0;
+    for (int j = 0; j < 6; j++) {
+      if (step->on_stress[i][j] != 0.0) n_stress++, k_stress = j;
+      if (step->on_strain[i][j] != 0.0) n_strain++, k_strain = j;
+    }
+    if (n_stress == 1 && n_strain == 0) rates->stress_rate[k_stress] = step->rate[i] / step->on_stress[i][k_stress];
+    if (n_strain == 1 && n_stress == 0) rates->stretching[k_strain] = step->rate[i] / step->on_strain[i][k_strain];
+  }
+}
+
+hypofab_status control_solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
+                             hypofab_branch branch, control_rates *rates) {
+  solved s;
+  hypofab_status status = solve(material, state, step, &s);
+  if (status) return status;
+  double factor = 0.0; /* of jump, and of -z */
+  if (s.model == HYPOFAB_PLAIN) {
+    status = plain_size(&s, &factor);
+    if (status) return status;
+  } else if (branch == HYPOFAB_LOADING) {
+    const double g = determinant_ratio(&s);
+    if (!(g > singular))
+      return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
+                          "the prescribed rates lose their solution at this state (a peak or limit state)");
+    factor = dot(s.direction, s.reversal) / g;
+  }
+  for (int i = 0; i < 6; i++) rates->stretching[i] = s.reversal[i] - factor * s.response[i];
+  for (int i = 0; i < 6; i++) {
+    rates->stress_rate[i] = factor * s.jump[i];
+    for (int j = 0; j < 6; j++) rates->stress_rate[i] += s.stiffness[6 * i + j] * rates->stretching[j];
+  }
+  impose(step, rates);
+  const double size = sqrt(dot(rates->stretching, rates->stretching));
+  rates->along = size > 0.0 ? dot(s.direction, rates->stretching) / size : 0.0;
+  return HYPOFAB_OK;
+}
+
+hypofab_status control_choose_branch(const hypofab_material *material, const hypofab_state *state,
+                                     const hypofab_step *step, hypofab_branch *branch) {
+  solved s;
+  double size;
+  hypofab_status status = solve(material, state, step, &s);
+  if (status) return status;
+  if (s.model == HYPOFAB_PLAIN) {
+    *branch = HYPOFAB_PLAIN;
+    return plain_size(&s, &size);
+  }
+  const double along = dot(s.direction, s.reversal), g = determinant_ratio(&s);
+  if (!(g > 0.0))
+    return along < 0.0 ? hypofab_fail(HYPOFAB_NOT_UNIQUE, "two strain rates satisfy the prescribed rates, one on each branch")
+                       : hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
+                                      "no strain rate satisfies the prescribed rates (a peak or limit state)");
+  /* At along = 0 delta turns towards D at once, which is loading; delta = 0 is loading too. */
+  *branch = along < 0.0 ? HYPOFAB_REVERSAL : HYPOFAB_LOADING;
+  return HYPOFAB_OK;
+}
+
+int control_prescribes(const hypofab_step *step, hypofab_quantity quantity, double *rate) {
+  if (quantity == HYPOFAB_TIME) {
+    *rate = 1.0;
+    return 1;
+  }
+  /* Is the quantity a combination of the six conditions? Least squares on [A B]^T x = [f_stress f_strain]. */
+  double conditions[72], wanted[12], combination[6], rest[12], tau[6];
+  if (!quantity_coefficients(quantity, wanted, wanted + 6)) return 0;
+  for (int i = 0; i < 6; i++)
+    for (int j = 0; j < 6; j++) {
+      conditions[6 * j + i] = step->on_stress[i][j];
+      conditions[6 * (j + 6) + i] = step->on_strain[i][j];
+    }
+  gsl_matrix_view matrix = gsl_matrix_view_array(conditions, 12, 6);
+  gsl_vector_view b = gsl_vector_view_array(wanted, 12), x = gsl_vector_view_array(combination, 6);
+  gsl_vector_view residual = gsl_vector_view_array(rest, 12), t = gsl_vector_view_array(tau, 6);
+  gsl_linalg_QR_decomp(&matrix.matrix, &t.vector);
+  for (int i = 0; i < 6; i++)
+    if (!(fabs(conditions[7 * i]) > singular)) return 0; /* conditions that repeat each other; control_solve says so */
+  gsl_linalg_QR_lssolve(&matrix.matrix, &t.vector, &b.vector, &x.vector, &residual.vector);
+  if (gsl_blas_dnrm2(&residual.vector) > singular) return 0;
+  *rate = 0.0;
+  for (int i = 0; i < 6; i++) *rate += combination[i] * step->rate[i];
+  return 1;
+}

@@ -1,0 +1,34 @@
+/**
+ * @file events.h
+ * @brief Find where, inside one step of the integrator, a quantity meets a value or the branch changes.
+ */
+#ifndef HYPOFAB_DRIVER_EVENTS_H
+#define HYPOFAB_DRIVER_EVENTS_H
+
+#include "driver/integrate.h"
+
+/** A function of time and state whose zero is the event. */
+typedef struct event {
+  double (*value)(const struct event *event, double time, const test_state *state);
+  const hypofab_material *material;
+  const hypofab_step *step;
+  hypofab_branch branch;
+  hypofab_mark mark;
+} event;
+
+/** Zero where the quantity of event->mark has its value. */
+double event_mark(const event *event, double time, const test_state *state);
+
+/** Zero where the loading direction leaves the branch; positive on it. */
+double event_branch(const event *event, double time, const test_state *state);
+
+/**
+ * @brief Locate an event that lies between two states, by Brent's method on the integrator itself: no interpolation.
+ * @param from,start  before the event
+ * @param to,end      after it: the signs of the values at start and end differ
+ * @param time,state  the place found
+ */
+hypofab_status event_locate(integrator *it, const event *event, double from, const test_state *start, double to,
+                            const test_state *end, double *time, test_state *state);
+
+#endif
