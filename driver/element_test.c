@@ -148,14 +148,16 @@ typedef struct place {
 
 /* Replace the place by that of an event that comes earlier. */
 static hypofab_status consider(run *r, const event *e, double to, const test_state *end, place *first) {
-  const double before = e->value(e, r->time, &r->state), after = e->value(e, to, end);
+  const double after = e->value(e, to, end);
+  if (e->value == event_branch && after >= 0.0) return HYPOFAB_OK;
+  const double before = e->value(e, r->time, &r->state);
   double time = r->time;
   test_state state = r->state;
   if ((before < 0.0 && after >= 0.0) || (before > 0.0 && after <= 0.0)) {
     hypofab_status status = event_locate(r->it, e, r->time, &r->state, to, end, &time, &state);
     first->located = 1;
     if (status) return status;
-  } else if (!(e->value == event_branch && after < 0.0)) {
+  } else if (e->value != event_branch) {
     return HYPOFAB_OK; /* not crossed; only a branch can be left from its very edge, where rounding decides the sign */
   }
   if (!first->what || time < first->time) first->what = e, first->time = time, first->state = state;
