@@ -24,7 +24,7 @@ progress_bar progress_start(void) {
 
 int progress_show(const char *what, double fraction, void *user) {
   progress_bar *bar = user;
-  const int percent = (int)(100 * fraction);
+  const int percent = (int)(100 * fraction + 0.5);
   if (bar->visible && percent != bar->percent) {
     bar->percent = percent;
     char cells[WIDTH + 1];

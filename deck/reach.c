@@ -1,66 +1,17 @@
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/message.h"
 #include "deck/study.h"
+#include "driver/control.h"
 
-/* Quantities that are a sum of components of one tensor: what their conditions say can be read off. */
-static bool sum_of_components(hypofab_quantity quantity, bool *stress, double weight[6]) {
-  for (int i = 0; i < 6; ++i) weight[i] = 0;
-  *stress = (quantity >= HYPOFAB_SIG_XX && quantity <= HYPOFAB_SIG_YZ) || quantity == HYPOFAB_P;
-  if (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_EPS_YZ)
-    weight[quantity - HYPOFAB_EPS_XX] = 1;
-  else if (quantity >= HYPOFAB_SIG_XX && quantity <= HYPOFAB_SIG_YZ)
-    weight[quantity - HYPOFAB_SIG_XX] = 1;
-  else if (quantity == HYPOFAB_EPS_V || quantity == HYPOFAB_P)
-    for (int i = 0; i < 3; ++i) weight[i] = quantity == HYPOFAB_P ? -1.0 / 3 : 1;
-  else
-    return false;
-  return true;
-}
-
-static bool all_zero(const double row[6]) {
-  for (int i = 0; i < 6; ++i)
-    if (row[i] != 0) return false;
-  return true;
-}
-
-/* Factor f with weight = f row, or 0 when they are not parallel. */
-static double parallel(const double row[6], const double weight[6]) {
-  double factor = 0;
-  for (int i = 0; i < 6; ++i)
-    if (row[i] != 0) factor = weight[i] / row[i];
-  for (int i = 0; i < 6; ++i)
-    if (fabs(weight[i] - factor * row[i]) > 1e-12 * fabs(factor)) return 0;
-  return factor;
-}
-
-/* The rate of sum_i weight_i (strain or stress)_i when one condition fixes it; NaN when none does. */
-static double fixed_by_one(const hypofab_step *step, bool stress, const double weight[6]) {
-  for (int i = 0; i < 6; ++i) {
-    const double *own = stress ? step->on_stress[i] : step->on_strain[i];
-    const double *other = stress ? step->on_strain[i] : step->on_stress[i];
-    const double factor = all_zero(other) ? parallel(own, weight) : 0;
-    if (factor != 0) return factor * step->rate[i];
-  }
-  return NAN;
-}
-
-/* The same when several conditions fix its terms one by one. */
+/* The rate of a quantity when the conditions of a step prescribe one, NaN when they do not. */
 static double prescribed_rate(const hypofab_step *step, hypofab_quantity quantity) {
-  bool stress;
-  double weight[6], sum = 0;
-  if (quantity == HYPOFAB_TIME) return 1;
-  if (quantity == HYPOFAB_VOID_RATIO) return prescribed_rate(step, HYPOFAB_EPS_V) == 0 ? 0 : NAN;
-  if (!sum_of_components(quantity, &stress, weight)) return NAN;
-  const double whole = fixed_by_one(step, stress, weight);
-  if (!isnan(whole)) return whole;
-  for (int i = 0; i < 6; ++i) {
-    double term[6] = {0};
-    term[i] = weight[i];
-    if (weight[i] != 0) sum += fixed_by_one(step, stress, term);
-  }
-  return sum;
+  /* The void ratio follows the volume: of its rate only zero is known without integrating. */
+  const bool is_volume = quantity == HYPOFAB_VOID_RATIO;
+  double rate, largest = 0;
+  if (!control_prescribes(step, is_volume ? HYPOFAB_EPS_V : quantity, &rate)) return NAN;
+  for (int i = 0; i < 6; ++i) largest = fmax(largest, fabs(step->rate[i]));
+  if (quantity != HYPOFAB_TIME && fabs(rate) <= 1e-12 * largest) return 0; /* a held quantity, to rounding */
+  return is_volume ? NAN : rate;
 }
 
 static void start_values(const hypofab_state *initial, double known[HYPOFAB_N_QUANTITIES]) {

@@ -85,6 +85,7 @@ static hypofab_status run_test(run *run, const char *directory) {
   result->ran = true;
   result->status = status;
   if (status) memcpy(result->message, hypofab_last_message(), sizeof result->message);
+  result->stopped_in = (unsigned)outcome.step;
   result->integrator_steps = outcome.integrator_steps;
   result->evaluations = outcome.evaluations;
   return output_commit(&run->file);
@@ -104,7 +105,7 @@ static hypofab_status explain(const hypofab_study *study, const char *directory,
       return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted in test '%s'; its %ld rows so far are in %s/%s.csv",
                           given->name, result->rows, directory, given->name);
     return hypofab_fail(result->status, "test '%s' stopped early in step %u: %s; its %ld rows so far are in %s/%s.csv",
-                        given->name, result->steps_begun, result->message, result->rows, directory, given->name);
+                        given->name, result->stopped_in + 1, result->message, result->rows, directory, given->name);
   }
   return HYPOFAB_OK;
 }

@@ -17,6 +17,7 @@ typedef struct study_result {
   hypofab_row start;  /**< the first row */
   hypofab_row *ends;  /**< the last row of each step begun */
   unsigned steps_begun;
+  unsigned stopped_in; /**< the step it ended in, from 0 */
   long integrator_steps, evaluations;
 } study_result;
 

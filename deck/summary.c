@@ -56,7 +56,7 @@ static json_t *steps_array(const hypofab_study *study, unsigned test, const stud
   json_t *array = json_array();
   for (unsigned i = 0; i < result->steps_begun; ++i) {
     const char *name = study->deck->tests[test].steps[i].name;
-    const bool reached = result->status == HYPOFAB_OK || i + 1 < result->steps_begun;
+    const bool reached = result->status == HYPOFAB_OK || i < result->stopped_in;
     json_t *step = json_object();
     json_object_set_new(step, "name", name ? json_string(name) : json_null());
     json_object_set_new(step, "reached", json_boolean(reached));

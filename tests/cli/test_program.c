@@ -1,0 +1,282 @@
+/* The program as its users meet it: help, exit codes, silence in a pipe, a bar on a terminal, Ctrl-C. */
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "cli/program.h"
+#include "deck/scratch.h"
+#include "hypofab.h"
+
+#define EXAMPLE(name) HYPOFAB_SOURCE_DIR "/examples/" name
+
+static void expect(const program_run *run, int exit_code, const char *in_out, const char *in_err) {
+  if (run->exit_code != exit_code || !strstr(run->out, in_out) || !strstr(run->err, in_err))
+    fail_msg("exit code %d, expected %d; output\n%s\nexpected ... %s ...; errors\n%s\nexpected ... %s ...", run->exit_code,
+             exit_code, run->out, in_out, run->err, in_err);
+}
+
+static void expect_silence(const program_run *run) {
+  if (*run->err) fail_msg("unexpected on the error stream: %s", run->err);
+}
+
+static void help_and_version_are_printed(void **state) {
+  (void)state;
+  program_run run = program("--version", NULL);
+  expect(&run, 0, hypofab_version(), "");
+  run_free(&run);
+  run = program("--help", NULL);
+  const char *const commands[] = {"run", "envelope", "check", "materials", "fabric", "delta"};
+  for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
+    char line[32];
+    snprintf(line, sizeof line, "\n  %-10s ", commands[i]);
+    expect(&run, 0, line, "");
+    program_run help = program(commands[i], "--help", NULL);
+    char example[64];
+    snprintf(example, sizeof example, "Usage: hypofab %s ", commands[i]);
+    expect(&help, 0, example, "");
+    expect(&help, 0, "Examples:", "");
+    snprintf(example, sizeof example, "\n  hypofab %s ", commands[i]);
+    expect(&help, 0, example, "");
+    expect_silence(&help);
+    run_free(&help);
+  }
+  run_free(&run);
+}
+
+static void wrong_usage_has_exit_code_2(void **state) {
+  (void)state;
+  const struct {
+    const char *arguments[4];
+    const char *message;
+  } wrong[] = {{{NULL}, "Usage: hypofab COMMAND"},
+               {{"fly"}, "'fly' is not a command"},
+               {{"run"}, "no deck given"},
+               {{"check"}, "no deck given"},
+               {{"envelope"}, "no deck given"},
+               {{"run", "a.yaml", "b.yaml"}, "one deck at a time"},
+               {{"run", "a.yaml", "--fast"}, "unrecognized option"},
+               {{"run", "a.yaml", "-o"}, "requires an argument"},
+               {{"check", "a.yaml", "-o", "x"}, "invalid option"},
+               {{"materials", "sahara"}, "sahara"},
+               {{"materials", "toyoura", "hostun"}, "one sand at a time"},
+               {{"materials", "--yaml"}, "expected the NAME of a sand"},
+               {{"run", "absent.yaml"}, "absent.yaml: No such file"},
+               {{"run", EXAMPLE("response_envelopes.yaml")}, "no tests in this deck"},
+               {{"envelope", EXAMPLE("oedometer.yaml")}, "no envelopes in this deck"}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    const char *const *a = wrong[i].arguments;
+    program_run run = program(a[0], a[1], a[2], a[3], NULL);
+    expect(&run, 2, "", wrong[i].message);
+    run_free(&run);
+    assert_int_equal(scratch_count(scratch_path(".")), 2); /* the two streams and nothing else */
+  }
+}
+
+static void bad_decks_are_refused_and_nothing_is_written(void **state) {
+  (void)state;
+  scratch_write("bad.yaml", "materials:\n  - {name: s, sand: paper000}\nstates:\n"
+                            "  - {name: a, material: s, p: 100, void_ratio: -2.5, delta: {zero: true}}\n"
+                            "tests:\n  - {name: t, state: a, steps: []}\n");
+  const char *const commands[] = {"run", "envelope", "check"};
+  for (int i = 0; i < 3; ++i) {
+    program_run run = program(commands[i], "bad.yaml", NULL);
+    expect(&run, 2, "", "hypofab: bad.yaml:6: tests[0].steps: an empty list, expected at least 1 entry\n");
+    run_free(&run);
+    assert_int_equal(scratch_count(scratch_path(".")), 3);
+  }
+}
+
+static void every_example_passes_the_check(void **state) {
+  (void)state;
+  const char *const examples[] = {EXAMPLE("directional_stiffness.yaml"), EXAMPLE("directional_stiffness_dem.yaml"),
+                                  EXAMPLE("response_envelopes.yaml"),    EXAMPLE("oedometer.yaml"),
+                                  EXAMPLE("undrained_triaxial.yaml"),    EXAMPLE("own_sand.yaml")};
+  for (size_t i = 0; i < sizeof examples / sizeof *examples; ++i) {
+    program_run run = program("check", examples[i], NULL);
+    expect(&run, 0, "is good\n", "");
+    expect_silence(&run);
+    run_free(&run);
+  }
+  assert_int_equal(scratch_count(scratch_path(".")), 2);
+}
+
+static void results_go_where_asked_or_beside_the_user(void **state) {
+  (void)state;
+  program_run run = program("run", EXAMPLE("oedometer.yaml"), NULL);
+  expect(&run, 0, "oedometer    done; end: p = ", "");
+  expect(&run, 0, "oedometer_out/oedometer.csv\n", "");
+  expect_silence(&run);
+  run_free(&run);
+  assert_int_equal(scratch_count(scratch_path("oedometer_out")), 2);
+  run = program("run", "-o", "here/and/there", EXAMPLE("own_sand.yaml"), NULL);
+  expect(&run, 0, "here/and/there/excavation.csv", "");
+  run_free(&run);
+  assert_int_equal(scratch_count(scratch_path("here/and/there")), 3);
+  run = program("envelope", EXAMPLE("response_envelopes.yaml"), NULL);
+  expect(&run, 0, "figure_1     done; response_envelopes_out/figure_1.csv\n", "");
+  expect_silence(&run);
+  run_free(&run);
+  table t = table_read(scratch_path("response_envelopes_out/figure_1.csv"));
+  assert_int_equal(t.rows, 3 * 360);
+  table_free(&t);
+}
+
+static void a_place_that_cannot_be_written_has_exit_code_3(void **state) {
+  (void)state;
+  scratch_write("file", "");
+  program_run run = program("run", "-o", "file", EXAMPLE("oedometer.yaml"), NULL);
+  expect(&run, 3, "", "hypofab: file: is a file, expected a folder");
+  run_free(&run);
+}
+
+static void a_physical_stop_has_exit_code_1_and_says_so(void **state) {
+  (void)state;
+  scratch_write("overload.yaml",
+                "materials:\n  - {name: sand, sand: hochstetten}\n"
+                "states:\n  - {name: s, material: sand, p: 100, void_ratio: 0.7, delta: {zero: true}}\n"
+                "tests:\n  - name: overload\n    state: s\n    steps:\n"
+                "      - control: {xx: {stress_rate: 0}, yy: {stress_rate: 0}, zz: {stress_rate: -100}}\n"
+                "        until: {quantity: sig_zz, value: -10000}\n        every: {quantity: sig_zz, value: 10}\n");
+  program_run run = program("run", "overload.yaml", NULL);
+  expect(&run, 1, "overload     loss of controllability", "test 'overload' stopped early in step 1: ");
+  expect(&run, 1, "", "rows so far are in overload_out/overload.csv\n");
+  run_free(&run);
+  table t = table_read(scratch_path("overload_out/overload.csv"));
+  assert_true(t.rows > 5);
+  table_free(&t);
+}
+
+/* So many cycles that it takes minutes. */
+static void write_endless_deck(void) {
+  FILE *file = fopen(scratch_path("endless.yaml"), "w");
+  assert_non_null(file);
+  fputs("materials:\n  - {name: sand, sand: karlsruhe_fine}\n"
+        "states:\n  - {name: s, material: sand, p: 200, void_ratio: 0.85, delta: {zero: true}}\n"
+        "tests:\n  - name: endless\n    state: s\n    steps:\n",
+        file);
+  for (int i = 0; i < 2000; ++i)
+    fprintf(file, "      - {preset: oedometer_%sloading, axis: z, until: {quantity: eps_zz, value: %s}, rows: 1000000}\n",
+            i % 2 ? "un" : "", i % 2 ? "-0.001" : "-0.01");
+  fputs("  - name: never\n    state: s\n    steps:\n"
+        "      - {preset: oedometer_loading, axis: z, until: {quantity: eps_zz, value: -0.01}}\n", file);
+  fclose(file);
+}
+
+static void ctrl_c_keeps_the_rows_and_says_so(void **state) {
+  (void)state;
+  write_endless_deck();
+  const pid_t pid = program_start((const char *const[]){"run", "endless.yaml", NULL});
+  /* The temporary file is there once the test runs. */
+  for (int i = 0; i < 1000 && scratch_count(scratch_path("endless_out")) < 1; ++i) usleep(10000);
+  usleep(50000);
+  assert_int_equal(kill(pid, SIGINT), 0);
+  program_run run = program_wait(pid);
+  expect(&run, 1, "endless      interrupted", "hypofab: interrupted in test 'endless'; its ");
+  expect(&run, 1, "never        not run: interrupted\n", " rows so far are in endless_out/endless.csv\n");
+  run_free(&run);
+  assert_int_equal(scratch_count(scratch_path("endless_out")), 2);
+  json_t *summary = summary_read(scratch_path("endless_out"));
+  const json_t *test = summary_test(summary, 0);
+  assert_int_equal(json_integer_value(json_object_get(test, "status")), HYPOFAB_INTERRUPTED);
+  /* Every row is whole: as many lines as the summary says, and the header. */
+  FILE *file = fopen(scratch_path("endless_out/endless.csv"), "r");
+  assert_non_null(file);
+  long lines = 0;
+  int last = 0;
+  for (int c; (c = fgetc(file)) != EOF; last = c) lines += c == '\n';
+  fclose(file);
+  assert_int_equal(last, '\n');
+  assert_int_equal(lines, json_integer_value(json_object_get(test, "rows")) + 1);
+  assert_true(lines > 2);
+  json_decref(summary);
+}
+
+static void a_bar_is_shown_on_a_terminal_only(void **state) {
+  (void)state;
+  program_run run = program_on_terminal((const char *const[]){"run", EXAMPLE("directional_stiffness.yaml"), NULL});
+  assert_int_equal(run.exit_code, 0);
+  assert_non_null(strstr(run.err, " 50 % A-90"));
+  assert_non_null(strstr(run.err, "[########################################] 100 % I-90"));
+  assert_string_equal(run.err + strlen(run.err) - 4, "\r\033[K"); /* wiped off at the end */
+  run_free(&run);
+  run = program("run", EXAMPLE("directional_stiffness.yaml"), NULL);
+  expect(&run, 0, "A-0 ", "");
+  expect_silence(&run);
+  run_free(&run);
+}
+
+static void sands_are_listed_and_shown(void **state) {
+  (void)state;
+  program_run list = program("materials", NULL), json = program("materials", "--json", NULL);
+  json_t *sands = json_loads(json.out, 0, NULL);
+  assert_int_equal(json_array_size(sands), hypofab_sand_count());
+  for (int i = 0; i < hypofab_sand_count(); ++i) {
+    hypofab_sand_info info;
+    hypofab_material material;
+    assert_int_equal(hypofab_sand_describe(i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_sand(info.name, &material), HYPOFAB_OK);
+    expect(&list, 0, info.name, "");
+    expect(&list, 0, info.source, "");
+    const json_t *sand = json_array_get(sands, (size_t)i), *values = json_object_get(sand, "parameters");
+    assert_string_equal(json_string_value(json_object_get(sand, "name")), info.name);
+    assert_int_equal(json_object_size(values), HYPOFAB_N_PARAMETERS);
+    assert_true(json_number_value(json_object_get(values, "h_s")) == material.h_s);
+
+    /* The piece of a deck that --yaml prints is one. */
+    program_run yaml = program("materials", info.name, "--yaml", NULL);
+    expect(&yaml, 0, "materials:\n", "");
+    char *deck = malloc(strlen(yaml.out) + 400);
+    assert_non_null(deck);
+    sprintf(deck, "%s%s", yaml.out,
+            "states:\n  - {name: s, material: my_sand, p: 100, void_ratio: 0.6, delta: {zero: true}}\n"
+            "tests:\n  - name: t\n    state: s\n    steps:\n"
+            "      - {preset: oedometer_loading, axis: z, until: {quantity: eps_zz, value: -1.0e-5}, rows: 1}\n");
+    scratch_write("piece.yaml", deck);
+    program_run run = program("run", "piece.yaml", NULL);
+    expect(&run, 0, "t            done", "");
+    json_t *summary = summary_read(scratch_path("piece_out"));
+    const json_t *used = json_object_get(summary_test(summary, 0), "material");
+    for (int k = 0; k < HYPOFAB_N_PARAMETERS; ++k) {
+      hypofab_parameter_info parameter;
+      assert_int_equal(hypofab_parameter_describe(k, &parameter), HYPOFAB_OK);
+      assert_true(json_number_value(json_object_get(used, parameter.name)) ==
+                  json_number_value(json_object_get(values, parameter.name)));
+    }
+    json_decref(summary);
+    free(deck);
+    run_free(&run);
+    run_free(&yaml);
+  }
+  json_decref(sands);
+  run_free(&list);
+  run_free(&json);
+  program_run one = program("materials", "hochstetten", NULL);
+  expect(&one, 0, "Niemunis", "");
+  expect(&one, 0, " 1e+06 kPa ", "");
+  run_free(&one);
+}
+
+int main(void) {
+#define TEST(f) cmocka_unit_test_setup_teardown(f, scratch_make, scratch_remove)
+  const struct CMUnitTest tests[] = {
+      TEST(help_and_version_are_printed),
+      TEST(wrong_usage_has_exit_code_2),
+      TEST(bad_decks_are_refused_and_nothing_is_written),
+      TEST(every_example_passes_the_check),
+      TEST(results_go_where_asked_or_beside_the_user),
+      TEST(a_place_that_cannot_be_written_has_exit_code_3),
+      TEST(a_physical_stop_has_exit_code_1_and_says_so),
+      TEST(ctrl_c_keeps_the_rows_and_says_so),
+      TEST(a_bar_is_shown_on_a_terminal_only),
+      TEST(sands_are_listed_and_shown),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
