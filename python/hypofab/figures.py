@@ -3,11 +3,13 @@
 Lines differ in colour, width and dashes, so that they stay apart in grey print and where two of them coincide.
 """
 
+import re
 from collections.abc import Sequence
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from hypofab.results import EnvelopeSeries, Run
 
@@ -55,7 +57,8 @@ def _legend(figure: Figure, axes: Axes, columns: int) -> None:
 def stress_strain(run: Run, *, zoom: float | None = None) -> Figure:
     """Deviatoric stress q over deviatoric strain eps_q (paper 000, Figure 7).
 
-    zoom: an inset shows eps_q from 0 to this value [-], e.g. 1e-3; None: no inset.
+    zoom: an inset shows eps_q from 0 to this value [-], e.g. 1e-3; None: no inset. Where the tests reach less than ten
+    times as far, the axes show that range themselves and the inset would cover the curves: it is left out.
     """
     with rc_context(STYLE):
         figure = Figure(figsize=COLUMN, layout="constrained")
@@ -65,7 +68,7 @@ def stress_strain(run: Run, *, zoom: float | None = None) -> Figure:
         axes.set(xlabel=r"deviatoric strain $\varepsilon_q$ [%]", ylabel=rf"deviatoric stress $q$ [{run.unit}]")
         axes.set_xlim(left=0)
         axes.set_ylim(bottom=0)
-        if zoom is not None:
+        if zoom is not None and max(test.eps_q.max() for test in run.tests) > 10 * zoom:
             _zoom_inset(axes, run, zoom)
         _legend(figure, axes, columns=4)
         return figure
@@ -107,16 +110,33 @@ def volumetric(run: Run, *, compression_positive: bool = False) -> Figure:
         return figure
 
 
-def _arrow(axes: Axes, x: float, y: float, *, style: dict) -> None:
-    """An arrow from the origin to (x, y), marked as delta; none for a vanishing vector."""
+def _delta_symbol(name: str) -> str | None:
+    """The symbol of a series named delta_A, with its index as in the paper; None for other names."""
+    index = re.fullmatch(r"delta_([A-Za-z0-9]+)", name)
+    return rf"$\boldsymbol{{\delta}}_{{\mathrm{{{index[1]}}}}}$" if index else None
+
+
+def _arrow(axes: Axes, x: float, y: float, *, label: str, style: dict) -> None:
+    """An arrow from the origin to (x, y) with a label behind its tip; none for a vanishing vector."""
     size = (x**2 + y**2) ** 0.5
     if size == 0:
         return
     arrow = {"arrowstyle": "-|>", "color": style["color"], "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0, "zorder": 3}
     axes.annotate("", xy=(x, y), xytext=(0, 0), arrowprops=arrow)
-    offset = (9 * x / size, 9 * y / size)
+    axes.update_datalim([(1.15 * x, 1.15 * y)])  # room for the label
+    _mark(axes, (x, y), (11 * x / size, 11 * y / size), label)
+
+
+def _mark(axes: Axes, point: tuple[float, float], offset: tuple[float, float], label: str) -> None:
+    """A label at an offset [pt] from a point, legible on top of lines."""
     axes.annotate(
-        r"$\boldsymbol{\delta}$", (x, y), offset, textcoords="offset points", ha="center", va="center", color="black"
+        label,
+        point,
+        offset,
+        textcoords="offset points",
+        ha="center",
+        va="center",
+        path_effects=[withStroke(linewidth=2.5, foreground="white")],
     )
 
 
@@ -144,13 +164,15 @@ def response_envelopes(
         axes.axvline(0, color="0.55", linewidth=0.8)
         reach = max(float((s.axial**2 + s.lateral**2).max()) for s in series) ** 0.5 * factor
         for index, state in enumerate(series):
+            symbol = _delta_symbol(state.name)
             lateral, axial = (sign * factor * values for values in (state.lateral, state.axial))
             closed = [*range(len(axial)), 0]
-            axes.plot(lateral[closed], axial[closed], label=state.name, **line_style(index))
+            axes.plot(lateral[closed], axial[closed], label=symbol or state.name, **line_style(index))
             scale = sign * 0.5 * reach  # |delta| = R: half of the largest response
-            _arrow(axes, scale * state.delta[1], scale * state.delta[0], style=line_style(index))
+            tip = (scale * state.delta[1], scale * state.delta[0])
+            _arrow(axes, *tip, label=symbol or r"$\boldsymbol{\delta}$", style=line_style(index))
         axes.plot(0, 0, marker="o", markersize=4, color="black")
-        axes.annotate(r"$\mathbf{T}_0$", xy=(0, 0), xytext=(5, -12), textcoords="offset points")
+        _mark(axes, (0, 0), (12, -9), r"$\mathbf{T}_0$")
         axes.set_aspect("equal", adjustable="datalim")
         convention = "compression" if compression_positive else "tension"
         axes.set(

@@ -10,7 +10,7 @@ import pytest
 
 from hypofab.results import COMPONENTS
 
-ROWS = 21
+ROWS = 41
 LAST_EPS_Q = 2e-3
 """The synthetic tests run to eps_q = 0.2 %, with the end of their first step in the middle."""
 

@@ -22,11 +22,13 @@ def test_stress_strain_shows_each_test_in_percent_and_stress(run_directory: Path
 
 
 def test_zoom_covers_the_range_asked_for_and_all_curves_in_it(run_directory: Path) -> None:
-    (axes,) = stress_strain(read_run(run_directory), zoom=1e-3).axes
+    run = read_run(run_directory)  # to eps_q = 0.2 %
+    (axes,) = stress_strain(run, zoom=1e-4).axes
     (inset,) = axes.child_axes
-    assert inset.get_xlim() == (0, 0.1)
-    assert inset.get_ylim()[0] == 0
-    assert inset.get_ylim()[1] == pytest.approx(1.05 * 40)  # 40 MPa times 0.1 %
+    assert inset.get_xlim() == (0, 0.01)
+    assert inset.get_ylim() == pytest.approx((0, 1.05 * 4))  # 40 MPa times 0.01 %
+    (axes,) = stress_strain(run, zoom=1e-3).axes
+    assert not axes.child_axes  # would cover half of the curves
 
 
 @pytest.mark.parametrize("wanted", [False, True])
