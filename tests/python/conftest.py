@@ -25,7 +25,7 @@ def write_csv(path: Path, columns: Mapping[str, Sequence]) -> None:
 def columns_of_test(stiffness: float) -> dict[str, np.ndarray]:
     """Rows of a linear test with q = stiffness eps_q; tensor number i is 10 i + component index in every row."""
     eps_q = np.linspace(0, LAST_EPS_Q, ROWS)
-    columns = {"time": eps_q, "step": (np.arange(ROWS) > ROWS // 2).astype(int)}
+    columns = {"time": eps_q, "step": 1 + (np.arange(ROWS) > ROWS // 2)}
     for number, prefix in enumerate(("eps", "sig", "delta"), start=1):
         for index, component in enumerate(COMPONENTS):
             columns[f"{prefix}_{component}"] = np.full(ROWS, 10.0 * number + index)

@@ -16,8 +16,8 @@ def test_columns_reach_their_fields(run_directory: Path) -> None:
     np.testing.assert_array_equal(test.stress[-1], [20, 21, 22, 23, 24, 25])
     np.testing.assert_array_equal(test.delta[3], [30, 31, 32, 33, 34, 35])
     np.testing.assert_allclose(test.q, 40e3 * test.eps_q)
-    assert test.step[0] == 0
-    assert test.step[-1] == 1
+    assert test.step[0] == 1
+    assert test.step[-1] == 2
 
 
 def test_run_keeps_the_order_of_the_deck_its_unit_and_its_sign(run_directory: Path) -> None:
