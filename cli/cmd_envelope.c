@@ -22,7 +22,8 @@ int cmd_envelope(int argc, char **argv) {
   if (status) return cli_exit(status);
   if (hypofab_study_envelope_count(study) == 0) {
     hypofab_study_free(study);
-    fprintf(stderr, "hypofab: %s: no envelopes in this deck, expected some under 'envelopes' (for tests: hypofab run)\n",
+    fprintf(stderr,
+            "hypofab: %s: no envelopes in this deck, expected some under 'envelopes' (for tests: hypofab run)\n",
             arguments.deck);
     return CLI_BAD_INPUT;
   }

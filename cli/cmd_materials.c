@@ -27,11 +27,13 @@ static error_t parse_option(int key, char *argument, struct argp_state *state) {
     case 'j': arguments->format = AS_JSON; return 0;
     case 'y': arguments->format = AS_YAML; return 0;
     case ARGP_KEY_ARG:
-      if (arguments->name) argp_error(state, "'%s': one sand at a time, '%s' is given already", argument, arguments->name);
+      if (arguments->name)
+        argp_error(state, "'%s': one sand at a time, '%s' is given already", argument, arguments->name);
       arguments->name = argument;
       return 0;
     case ARGP_KEY_END:
-      if (arguments->format == AS_YAML && !arguments->name) argp_error(state, "--yaml: expected the NAME of a sand with it");
+      if (arguments->format == AS_YAML && !arguments->name)
+        argp_error(state, "--yaml: expected the NAME of a sand with it");
       return 0;
     default: return ARGP_ERR_UNKNOWN;
   }
@@ -117,9 +119,8 @@ static int list_all(const materials_arguments *arguments) {
 }
 
 int cmd_materials(int argc, char **argv) {
-  static const struct argp_option options[] = {{"json", 'j', NULL, 0, "Print JSON", 0},
-                                               {"yaml", 'y', NULL, 0, "Print a piece of a deck", 0},
-                                               {0}};
+  static const struct argp_option options[] = {
+      {"json", 'j', NULL, 0, "Print JSON", 0}, {"yaml", 'y', NULL, 0, "Print a piece of a deck", 0}, {0}};
   const struct argp argp = {options, parse_option, "[NAME]", text, NULL, NULL, NULL};
   materials_arguments arguments = {0};
   argp_parse(&argp, argc, argv, 0, NULL, &arguments);

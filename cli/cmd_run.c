@@ -23,7 +23,9 @@ static const char *text_of(const json_t *object, const char *key) {
   return value ? value : "-";
 }
 
-static double number_of(const json_t *object, const char *key) { return json_number_value(json_object_get(object, key)); }
+static double number_of(const json_t *object, const char *key) {
+  return json_number_value(json_object_get(object, key));
+}
 
 /* One line per test, from the summary the run has just written. */
 static void print_tests(const char *directory) {

@@ -13,7 +13,8 @@ static error_t parse_option(int key, char *argument, struct argp_state *state) {
       strcpy(arguments->directory, argument);
       return 0;
     case ARGP_KEY_ARG:
-      if (arguments->deck) argp_error(state, "'%s': one deck at a time, '%s' is given already", argument, arguments->deck);
+      if (arguments->deck)
+        argp_error(state, "'%s': one deck at a time, '%s' is given already", argument, arguments->deck);
       arguments->deck = argument;
       return 0;
     case ARGP_KEY_NO_ARGS: argp_error(state, "no deck given, expected the path of a YAML file"); return EINVAL;

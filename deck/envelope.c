@@ -43,8 +43,8 @@ static hypofab_status resolve_envelope(hypofab_study *study, const deck_source *
   envelope->axis = given->axis;
   envelope->probes = given->probes ? *given->probes : DEFAULT_PROBES;
   if (envelope->probes < 1 || envelope->probes > MOST_PROBES)
-    return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("envelopes[%u].probes", index),
-                       "%u, expected 1 to %d", envelope->probes, MOST_PROBES);
+    return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("envelopes[%u].probes", index), "%u, expected 1 to %d",
+                       envelope->probes, MOST_PROBES);
   envelope->size = given->size ? *given->size : 0.0;
   if (!(envelope->size >= 0 && envelope->size < 1))
     return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("envelopes[%u].size", index),

@@ -29,7 +29,7 @@ static bool is_needed(const char *name, bool intergranular) {
 /* Without a built-in sand every parameter of the model must be the deck's own; p_t, K_w and e_0 are 0 by default. */
 static hypofab_status start_without_sand(const deck_source *source, unsigned index, const deck_material *given,
                                          bool intergranular, hypofab_material *material) {
-  /* Values of an intergranular strain that is switched off, where the deck gives none: admissible and without effect. */
+  /* Admissible values without effect, for an intergranular strain that is switched off. */
   *material = (hypofab_material){.m_R = 5, .m_T = 2, .R = 1e-4, .beta_r = 0.5, .chi = 6};
   for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i) {
     hypofab_parameter_info info;

@@ -74,8 +74,8 @@ static hypofab_status probe_envelope(const hypofab_study *study, unsigned index,
   for (unsigned i = 0; i < n && !status; ++i) {
     const double fraction = (index + (double)i / n) / study->deck->envelopes_count;
     if (progress && progress(name, fraction, user))
-      status = hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted in envelope '%s'; results so far are in %s", name,
-                            directory);
+      status =
+          hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted in envelope '%s'; results so far are in %s", name, directory);
     else
       status = probe_series(study, index, i, file.stream);
   }

@@ -32,11 +32,12 @@ hypofab_status study_check_reach(const hypofab_study *study, const deck_source *
     const hypofab_mark until = run->steps[i].until;
     const double rate = prescribed_rate(&run->steps[i], until.quantity);
     const char *name = hypofab_quantity_name(until.quantity);
-    const double sign = study_quantity_has_sign(until.quantity) ? study_sign(study) : 1.0;
+    const double sign = study_quantity_sign(study, until.quantity);
     const deck_key key = deck_key_format("tests[%u].steps[%u].until.value", test, i);
     if (rate == 0)
-      return deck_refuse(source, HYPOFAB_BAD_FILE, key, "%g is never reached: the step holds %s, expected a quantity "
-                         "that changes", sign * until.value, name);
+      return deck_refuse(source, HYPOFAB_BAD_FILE, key,
+                         "%g is never reached: the step holds %s, expected a quantity that changes", sign * until.value,
+                         name);
     if (!isnan(rate) && (until.value - known[until.quantity]) * rate <= 0)
       return deck_refuse(source, HYPOFAB_BAD_FILE, key,
                          "%g is never reached: %s starts the step at %g and %s, expected a value %s that",

@@ -30,8 +30,7 @@ static void write_row(const hypofab_study *study, const hypofab_row *row, FILE *
   int used = output_number(line, ' ', row->value[HYPOFAB_TIME]);
   used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d", row->step + 1);
   for (int i = HYPOFAB_TIME + 1; i < HYPOFAB_N_QUANTITIES; ++i)
-    used += output_number(line + used, ',', study_quantity_has_sign(i) ? study_sign(study) * row->value[i]
-                                                                       : row->value[i]);
+    used += output_number(line + used, ',', study_quantity_sign(study, i) * row->value[i]);
   line[used++] = '\n';
   fwrite(line + 1, 1, (size_t)used - 1, stream); /* without the blank in front */
 }
@@ -104,8 +103,10 @@ static hypofab_status explain(const hypofab_study *study, const char *directory,
     if (asked_to_stop && result->status == HYPOFAB_INTERRUPTED)
       return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted in test '%s'; its %ld rows so far are in %s/%s.csv",
                           given->name, result->rows, directory, given->name);
-    return hypofab_fail(result->status, "test '%s' stopped early in step %u: %s; its %ld rows so far are in %s/%s.csv",
-                        given->name, result->stopped_in + 1, result->message, result->rows, directory, given->name);
+    return hypofab_fail(result->status,
+                        "test '%s' stopped early in step %u: %s%s; its %ld rows so far are in %s/%s.csv", given->name,
+                        result->stopped_in + 1, result->message,
+                        study_sign(study) < 0 ? " (tension positive here)" : "", result->rows, directory, given->name);
   }
   return HYPOFAB_OK;
 }

@@ -14,8 +14,8 @@ typedef struct study_result {
   hypofab_status status;
   char message[HYPOFAB_MESSAGE_SIZE]; /**< of the driver, when it stopped early */
   long rows;
-  hypofab_row start;  /**< the first row */
-  hypofab_row *ends;  /**< the last row of each step begun */
+  hypofab_row start; /**< the first row */
+  hypofab_row *ends; /**< the last row of each step begun */
   unsigned steps_begun;
   unsigned stopped_in; /**< the step it ended in, from 0 */
   long integrator_steps, evaluations;

@@ -5,7 +5,8 @@
 #define OPTIONAL_STRICT (CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT)
 
 /* A text of at least one character, required or not. */
-#define TEXT(key, structure, member) CYAML_FIELD_STRING_PTR(key, CYAML_FLAG_POINTER, structure, member, 1, CYAML_UNLIMITED)
+#define TEXT(key, structure, member) \
+  CYAML_FIELD_STRING_PTR(key, CYAML_FLAG_POINTER, structure, member, 1, CYAML_UNLIMITED)
 #define OPTIONAL_TEXT(key, structure, member) \
   CYAML_FIELD_STRING_PTR(key, OPTIONAL_POINTER, structure, member, 1, CYAML_UNLIMITED)
 #define SIX_NUMBERS(key, structure, member) \
@@ -24,18 +25,15 @@ static const cyaml_schema_value_t number = {CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAULT
 
 #define PARAMETER(index, name) CYAML_FIELD_FLOAT_PTR(name, OPTIONAL, deck_parameters, value[index])
 static const cyaml_schema_field_t parameter_fields[] = {
-    PARAMETER(0, "phi_c"), PARAMETER(1, "p_t"),   PARAMETER(2, "h_s"),     PARAMETER(3, "n"),
-    PARAMETER(4, "e_d0"),  PARAMETER(5, "e_c0"),  PARAMETER(6, "e_i0"),    PARAMETER(7, "alpha"),
-    PARAMETER(8, "beta"),  PARAMETER(9, "m_R"),   PARAMETER(10, "m_T"),    PARAMETER(11, "R"),
-    PARAMETER(12, "beta_r"), PARAMETER(13, "chi"), PARAMETER(14, "K_w"),   PARAMETER(15, "e_0"),
-    CYAML_FIELD_END};
+    PARAMETER(0, "phi_c"), PARAMETER(1, "p_t"),  PARAMETER(2, "h_s"),     PARAMETER(3, "n"),    PARAMETER(4, "e_d0"),
+    PARAMETER(5, "e_c0"),  PARAMETER(6, "e_i0"), PARAMETER(7, "alpha"),   PARAMETER(8, "beta"), PARAMETER(9, "m_R"),
+    PARAMETER(10, "m_T"),  PARAMETER(11, "R"),   PARAMETER(12, "beta_r"), PARAMETER(13, "chi"), PARAMETER(14, "K_w"),
+    PARAMETER(15, "e_0"),  CYAML_FIELD_END};
 
 static const cyaml_schema_field_t material_fields[] = {
-    TEXT("name", deck_material, name),
-    OPTIONAL_TEXT("sand", deck_material, sand),
+    TEXT("name", deck_material, name), OPTIONAL_TEXT("sand", deck_material, sand),
     CYAML_FIELD_MAPPING_PTR("parameters", OPTIONAL_POINTER, deck_material, parameters, parameter_fields),
-    CHOICE("intergranular", deck_material, intergranular, boolean_names),
-    CYAML_FIELD_END};
+    CHOICE("intergranular", deck_material, intergranular, boolean_names), CYAML_FIELD_END};
 
 static const cyaml_schema_field_t columns_fields[] = {
     OPTIONAL_TEXT("id1", deck_columns, id1), OPTIONAL_TEXT("id2", deck_columns, id2),
@@ -73,11 +71,13 @@ static const cyaml_schema_field_t component_fields[] = {
 
 #define COMPONENT(index, name, flags) \
   CYAML_FIELD_MAPPING_PTR(name, flags, deck_control, component[index], component_fields)
-static const cyaml_schema_field_t control_fields[] = {
-    COMPONENT(0, "xx", CYAML_FLAG_POINTER), COMPONENT(1, "yy", CYAML_FLAG_POINTER),
-    COMPONENT(2, "zz", CYAML_FLAG_POINTER), COMPONENT(3, "xy", OPTIONAL_POINTER),
-    COMPONENT(4, "xz", OPTIONAL_POINTER),   COMPONENT(5, "yz", OPTIONAL_POINTER),
-    CYAML_FIELD_END};
+static const cyaml_schema_field_t control_fields[] = {COMPONENT(0, "xx", CYAML_FLAG_POINTER),
+                                                      COMPONENT(1, "yy", CYAML_FLAG_POINTER),
+                                                      COMPONENT(2, "zz", CYAML_FLAG_POINTER),
+                                                      COMPONENT(3, "xy", OPTIONAL_POINTER),
+                                                      COMPONENT(4, "xz", OPTIONAL_POINTER),
+                                                      COMPONENT(5, "yz", OPTIONAL_POINTER),
+                                                      CYAML_FIELD_END};
 
 static const cyaml_schema_field_t step_fields[] = {
     OPTIONAL_TEXT("name", deck_step, name),
@@ -98,9 +98,9 @@ static const cyaml_schema_field_t test_fields[] = {
     CYAML_FIELD_SEQUENCE("steps", CYAML_FLAG_POINTER, deck_test, steps, &step_value, 1, CYAML_UNLIMITED),
     CYAML_FIELD_END};
 
-static const cyaml_schema_field_t series_fields[] = {
-    TEXT("name", deck_series, name), TEXT("state", deck_series, state),
-    CHOICE("intergranular", deck_series, intergranular, boolean_names), CYAML_FIELD_END};
+static const cyaml_schema_field_t series_fields[] = {TEXT("name", deck_series, name), TEXT("state", deck_series, state),
+                                                     CHOICE("intergranular", deck_series, intergranular, boolean_names),
+                                                     CYAML_FIELD_END};
 static const cyaml_schema_value_t series_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_series, series_fields)};
 
 static const cyaml_schema_field_t envelope_fields[] = {

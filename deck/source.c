@@ -51,7 +51,8 @@ static hypofab_status read_text(const char *path, char **text, size_t *length) {
 }
 
 static hypofab_status parser_message(const char *path, const yaml_parser_t *parser) {
-  if (parser->error == YAML_MEMORY_ERROR) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory while parsing", path);
+  if (parser->error == YAML_MEMORY_ERROR)
+    return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory while parsing", path);
   return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%zu: %s%s%s, expected YAML (docs/deck.md)", path,
                       parser->problem_mark.line + 1, parser->context ? parser->context : "",
                       parser->context ? ": " : "", parser->problem ? parser->problem : "unreadable");
@@ -129,8 +130,7 @@ size_t deck_line(const deck_source *source, const char *key) {
     } else {
       key += *key == '.';
       size_t length = strcspn(key, ".[");
-      const yaml_node_pair_t *pair =
-          node->type == YAML_MAPPING_NODE ? find_pair(document, node, key, length) : NULL;
+      const yaml_node_pair_t *pair = node->type == YAML_MAPPING_NODE ? find_pair(document, node, key, length) : NULL;
       if (!pair) break;
       line = yaml_document_get_node(document, pair->key)->start_mark.line + 1;
       node = yaml_document_get_node(document, pair->value);

@@ -37,8 +37,7 @@ static hypofab_status resolve_state(hypofab_study *study, const deck_source *sou
   const deck *deck = study->deck;
   const deck_state *given = &deck->states[index];
   study_state *state = &study->states[index];
-  while (state->material < deck->materials_count &&
-         strcmp(deck->materials[state->material].name, given->material) != 0)
+  while (state->material < deck->materials_count && strcmp(deck->materials[state->material].name, given->material) != 0)
     ++state->material;
   if (state->material == deck->materials_count)
     return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("states[%u].material", index),

@@ -14,10 +14,6 @@ static deck_key step_key(unsigned test, unsigned index, const char *rest) {
   return deck_key_format("tests[%u].steps[%u]%s", test, index, rest);
 }
 
-bool study_quantity_has_sign(hypofab_quantity quantity) {
-  return (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_DELTA_YZ) || quantity == HYPOFAB_EPS_V;
-}
-
 static hypofab_status resolve_quantity(const deck_source *source, deck_key key, const char *name,
                                        hypofab_quantity *quantity) {
   *quantity = hypofab_quantity_find(name);
@@ -80,8 +76,8 @@ static hypofab_status resolve_rows(const deck_source *source, unsigned test, uns
                        "'rows' is given too, expected one of them");
   if (given->every) {
     if (!(given->every->value > 0))
-      return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(test, index, ".every.value"),
-                         "%g, expected a spacing > 0", given->every->value);
+      return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(test, index, ".every.value"), "%g, expected a spacing > 0",
+                         given->every->value);
     step->every.value = given->every->value;
     return resolve_quantity(source, step_key(test, index, ".every.quantity"), given->every->quantity,
                             &step->every.quantity);
@@ -107,8 +103,7 @@ hypofab_status study_resolve_step(const hypofab_study *study, const deck_source 
                               &step->until.quantity);
   if (!status) status = resolve_rows(source, test, index, given, step);
   if (status) return status;
-  step->until.value =
-      study_quantity_has_sign(step->until.quantity) ? study_sign(study) * given->until.value : given->until.value;
+  step->until.value = study_quantity_sign(study, step->until.quantity) * given->until.value;
   if (given->max_time && !(*given->max_time > 0))
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(test, index, ".max_time"), "%g, expected a time > 0",
                        *given->max_time);

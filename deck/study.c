@@ -64,8 +64,7 @@ static hypofab_status fill_deck(const deck_source *source, deck **filled) {
   const cyaml_err_t error =
       cyaml_load_data((const uint8_t *)source->text, source->length, &configuration, &deck_schema, &data, NULL);
   if (error == CYAML_ERR_OOM) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
-  if (error || !data)
-    return hypofab_fail(HYPOFAB_BAD_FILE, "%s: %s: %s", source->path, cyaml_strerror(error), log);
+  if (error || !data) return hypofab_fail(HYPOFAB_BAD_FILE, "%s: %s: %s", source->path, cyaml_strerror(error), log);
   *filled = data;
   return HYPOFAB_OK;
 }

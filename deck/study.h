@@ -18,7 +18,7 @@ typedef struct study_state {
   bool has_fabric;
   hypofab_fabric fabric;
   hypofab_initial_delta map;
-  double c;          /**< parameter of the weight function */
+  double c; /**< parameter of the weight function */
 } study_state;
 
 /** A test; its steps run from states[state]. */
@@ -55,16 +55,19 @@ struct hypofab_study {
   study_envelope *envelopes;
 };
 
-/** The library's tension-positive value of a deck's number with a sign, and back: +1 or -1. */
+/** Factor between the library's tension-positive numbers and the deck's, both ways: +1 or -1. */
 static inline double study_sign(const hypofab_study *study) {
   return study->sign == DECK_COMPRESSION_POSITIVE ? -1.0 : 1.0;
 }
 
+/** The same for a quantity: stress, strain, eps_v and delta have a sign to change; for p, q, eps_q, rho it is +1. */
+static inline double study_quantity_sign(const hypofab_study *study, hypofab_quantity quantity) {
+  const bool has_sign = (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_DELTA_YZ) || quantity == HYPOFAB_EPS_V;
+  return has_sign ? study_sign(study) : 1.0;
+}
+
 /** Has a material intergranular strain? (m_R <= 0.5 switches it off.) */
 static inline bool study_has_intergranular(const hypofab_material *material) { return material->m_R > 0.5; }
-
-/** Does a quantity change sign under compression_positive? Stress, strain, eps_v and delta do; p, q, eps_q, rho do not. */
-bool study_quantity_has_sign(hypofab_quantity quantity);
 
 /* Each resolves one list of the deck into the study; arrays are allocated, references are to lists resolved before.
  * Errors: a refusal of the deck with file, line, key, value and what was expected; HYPOFAB_NO_MEMORY. */

@@ -28,10 +28,8 @@ static json_t *material_object(const hypofab_material *material) {
 
 static json_t *row_object(const hypofab_study *study, const hypofab_row *row) {
   json_t *object = json_object();
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
-    const double sign = study_quantity_has_sign(i) ? study_sign(study) : 1.0;
-    json_object_set_new(object, hypofab_quantity_name(i), number(sign * row->value[i] + 0.0));
-  }
+  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) /* + 0.0: no negative zeros */
+    json_object_set_new(object, hypofab_quantity_name(i), number(study_quantity_sign(study, i) * row->value[i] + 0.0));
   return object;
 }
 
@@ -83,8 +81,7 @@ static json_t *test_object(const hypofab_study *study, unsigned index, const stu
   json_object_set_new(object, "state", json_string(study->deck->tests[index].state));
   json_object_set_new(object, "material", material_object(&study->materials[state->material]));
   if (state->has_fabric)
-    json_object_set_new(object, "fabric",
-                        fabric_object(state, study->deck->states[study->tests[index].state].delta));
+    json_object_set_new(object, "fabric", fabric_object(state, study->deck->states[study->tests[index].state].delta));
   json_object_set_new(object, "initial", result->rows ? row_object(study, &result->start) : json_null());
   json_object_set_new(object, "steps", steps_array(study, index, result));
   return object;

@@ -30,7 +30,8 @@ static void directional_stiffness_is_that_of_table_4(void **state) {
     const char *name;
     int loaded; /* y or x */
     double exact, paper;
-  } tests[] = {{"A-0", 1, 114796, 114423}, {"A-90", 0, 53117, 53247}, {"I-0", 1, 58069, 57931}, {"I-90", 0, 58069, 57931}};
+  } tests[] = {
+      {"A-0", 1, 114796, 114423}, {"A-90", 0, 53117, 53247}, {"I-0", 1, 58069, 57931}, {"I-90", 0, 58069, 57931}};
   program_run run = run_example(EXAMPLE("directional_stiffness.yaml"));
   run_free(&run);
   json_t *summary = summary_read(scratch_path("results"));

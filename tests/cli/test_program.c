@@ -19,8 +19,8 @@
 
 static void expect(const program_run *run, int exit_code, const char *in_out, const char *in_err) {
   if (run->exit_code != exit_code || !strstr(run->out, in_out) || !strstr(run->err, in_err))
-    fail_msg("exit code %d, expected %d; output\n%s\nexpected ... %s ...; errors\n%s\nexpected ... %s ...", run->exit_code,
-             exit_code, run->out, in_out, run->err, in_err);
+    fail_msg("exit code %d, expected %d; output\n%s\nexpected ... %s ...; errors\n%s\nexpected ... %s ...",
+             run->exit_code, exit_code, run->out, in_out, run->err, in_err);
 }
 
 static void expect_silence(const program_run *run) {
@@ -82,9 +82,10 @@ static void wrong_usage_has_exit_code_2(void **state) {
 
 static void bad_decks_are_refused_and_nothing_is_written(void **state) {
   (void)state;
-  scratch_write("bad.yaml", "materials:\n  - {name: s, sand: paper000}\nstates:\n"
-                            "  - {name: a, material: s, p: 100, void_ratio: -2.5, delta: {zero: true}}\n"
-                            "tests:\n  - {name: t, state: a, steps: []}\n");
+  scratch_write("bad.yaml",
+                "materials:\n  - {name: s, sand: paper000}\nstates:\n"
+                "  - {name: a, material: s, p: 100, void_ratio: -2.5, delta: {zero: true}}\n"
+                "tests:\n  - {name: t, state: a, steps: []}\n");
   const char *const commands[] = {"run", "envelope", "check"};
   for (int i = 0; i < 3; ++i) {
     program_run run = program(commands[i], "bad.yaml", NULL);
@@ -158,15 +159,19 @@ static void a_physical_stop_has_exit_code_1_and_says_so(void **state) {
 static void write_endless_deck(void) {
   FILE *file = fopen(scratch_path("endless.yaml"), "w");
   assert_non_null(file);
-  fputs("materials:\n  - {name: sand, sand: karlsruhe_fine}\n"
-        "states:\n  - {name: s, material: sand, p: 200, void_ratio: 0.85, delta: {zero: true}}\n"
-        "tests:\n  - name: endless\n    state: s\n    steps:\n",
-        file);
+  fputs(
+      "materials:\n  - {name: sand, sand: karlsruhe_fine}\n"
+      "states:\n  - {name: s, material: sand, p: 200, void_ratio: 0.85, delta: {zero: true}}\n"
+      "tests:\n  - name: endless\n    state: s\n    steps:\n",
+      file);
   for (int i = 0; i < 2000; ++i)
-    fprintf(file, "      - {preset: oedometer_%sloading, axis: z, until: {quantity: eps_zz, value: %s}, rows: 1000000}\n",
+    fprintf(file,
+            "      - {preset: oedometer_%sloading, axis: z, until: {quantity: eps_zz, value: %s}, rows: 1000000}\n",
             i % 2 ? "un" : "", i % 2 ? "-0.001" : "-0.01");
-  fputs("  - name: never\n    state: s\n    steps:\n"
-        "      - {preset: oedometer_loading, axis: z, until: {quantity: eps_zz, value: -0.01}}\n", file);
+  fputs(
+      "  - name: never\n    state: s\n    steps:\n"
+      "      - {preset: oedometer_loading, axis: z, until: {quantity: eps_zz, value: -0.01}}\n",
+      file);
   fclose(file);
 }
 

@@ -12,59 +12,59 @@
 #include "hypofab.h"
 
 static const char *const good_deck =
-    "title: base\n"                                                                                        /* 1 */
-    "unit: kPa\n"                                                                                          /* 2 */
-    "sign: tension_positive\n"                                                                             /* 3 */
-    "materials:\n"                                                                                         /* 4 */
-    "  - name: sand\n"                                                                                     /* 5 */
-    "    sand: hochstetten\n"                                                                              /* 6 */
-    "  - name: own\n"                                                                                      /* 7 */
-    "    parameters: {phi_c: 33, h_s: 1.0e6, n: 0.25, e_d0: 0.55, e_c0: 0.95,\n"                           /* 8 */
-    "      e_i0: 1.05, alpha: 0.25, beta: 1.5}\n"                                                          /* 9 */
-    "    intergranular: false\n"                                                                           /* 10 */
-    "states:\n"                                                                                            /* 11 */
-    "  - name: start\n"                                                                                    /* 12 */
-    "    material: sand\n"                                                                                 /* 13 */
-    "    p: 100\n"                                                                                         /* 14 */
-    "    void_ratio: 0.7\n"                                                                                /* 15 */
-    "    delta: {zero: true}\n"                                                                            /* 16 */
-    "  - name: plain\n"                                                                                    /* 17 */
-    "    material: own\n"                                                                                  /* 18 */
-    "    stress: [-100, -100, -100, 0, 0, 0]\n"                                                            /* 19 */
-    "    void_ratio: 0.8\n"                                                                                /* 20 */
-    "tests:\n"                                                                                             /* 21 */
-    "  - name: one\n"                                                                                      /* 22 */
-    "    state: start\n"                                                                                   /* 23 */
-    "    tolerance: 1.0e-7\n"                                                                              /* 24 */
-    "    steps:\n"                                                                                         /* 25 */
-    "      - name: first\n"                                                                                /* 26 */
-    "        preset: oedometer_loading\n"                                                                  /* 27 */
-    "        axis: z\n"                                                                                    /* 28 */
-    "        rate: 2\n"                                                                                    /* 29 */
-    "        until: {quantity: eps_zz, value: -0.001}\n"                                                   /* 30 */
-    "        rows: 10\n"                                                                                   /* 31 */
-    "        max_time: 1\n"                                                                                /* 32 */
-    "  - name: two\n"                                                                                      /* 33 */
-    "    state: plain\n"                                                                                   /* 34 */
-    "    steps:\n"                                                                                         /* 35 */
-    "      - control: {xx: {strain_rate: 0}, yy: {stress_rate: 0}, zz: {strain_rate: -1}}\n"               /* 36 */
-    "        until: {quantity: eps_zz, value: -0.002}\n"                                                   /* 37 */
-    "        every: {quantity: time, value: 0.001}\n"                                                      /* 38 */
-    "envelopes:\n"                                                                                         /* 39 */
-    "  - name: env\n"                                                                                      /* 40 */
-    "    axis: z\n"                                                                                        /* 41 */
-    "    size: 0\n"                                                                                        /* 42 */
-    "    probes: 12\n"                                                                                     /* 43 */
-    "    series:\n"                                                                                        /* 44 */
-    "      - {name: a, state: start}\n"                                                                    /* 45 */
-    "      - {name: b, state: plain}\n";                                                                   /* 46 */
+    "title: base\n"                                                                          /* 1 */
+    "unit: kPa\n"                                                                            /* 2 */
+    "sign: tension_positive\n"                                                               /* 3 */
+    "materials:\n"                                                                           /* 4 */
+    "  - name: sand\n"                                                                       /* 5 */
+    "    sand: hochstetten\n"                                                                /* 6 */
+    "  - name: own\n"                                                                        /* 7 */
+    "    parameters: {phi_c: 33, h_s: 1.0e6, n: 0.25, e_d0: 0.55, e_c0: 0.95,\n"             /* 8 */
+    "      e_i0: 1.05, alpha: 0.25, beta: 1.5}\n"                                            /* 9 */
+    "    intergranular: false\n"                                                             /* 10 */
+    "states:\n"                                                                              /* 11 */
+    "  - name: start\n"                                                                      /* 12 */
+    "    material: sand\n"                                                                   /* 13 */
+    "    p: 100\n"                                                                           /* 14 */
+    "    void_ratio: 0.7\n"                                                                  /* 15 */
+    "    delta: {zero: true}\n"                                                              /* 16 */
+    "  - name: plain\n"                                                                      /* 17 */
+    "    material: own\n"                                                                    /* 18 */
+    "    stress: [-100, -100, -100, 0, 0, 0]\n"                                              /* 19 */
+    "    void_ratio: 0.8\n"                                                                  /* 20 */
+    "tests:\n"                                                                               /* 21 */
+    "  - name: one\n"                                                                        /* 22 */
+    "    state: start\n"                                                                     /* 23 */
+    "    tolerance: 1.0e-7\n"                                                                /* 24 */
+    "    steps:\n"                                                                           /* 25 */
+    "      - name: first\n"                                                                  /* 26 */
+    "        preset: oedometer_loading\n"                                                    /* 27 */
+    "        axis: z\n"                                                                      /* 28 */
+    "        rate: 2\n"                                                                      /* 29 */
+    "        until: {quantity: eps_zz, value: -0.001}\n"                                     /* 30 */
+    "        rows: 10\n"                                                                     /* 31 */
+    "        max_time: 1\n"                                                                  /* 32 */
+    "  - name: two\n"                                                                        /* 33 */
+    "    state: plain\n"                                                                     /* 34 */
+    "    steps:\n"                                                                           /* 35 */
+    "      - control: {xx: {strain_rate: 0}, yy: {stress_rate: 0}, zz: {strain_rate: -1}}\n" /* 36 */
+    "        until: {quantity: eps_zz, value: -0.002}\n"                                     /* 37 */
+    "        every: {quantity: time, value: 0.001}\n"                                        /* 38 */
+    "envelopes:\n"                                                                           /* 39 */
+    "  - name: env\n"                                                                        /* 40 */
+    "    axis: z\n"                                                                          /* 41 */
+    "    size: 0\n"                                                                          /* 42 */
+    "    probes: 12\n"                                                                       /* 43 */
+    "    series:\n"                                                                          /* 44 */
+    "      - {name: a, state: start}\n"                                                      /* 45 */
+    "      - {name: b, state: plain}\n";                                                     /* 46 */
 
 /* The good deck with one text replaced, and what its refusal must say. */
 typedef struct refusal {
   const char *from, *to;
   int line;
-  const char *key;      /* with ": " behind it in the message */
-  const char *found;    /* the value at fault */
+  const char *key;   /* with ": " behind it in the message */
+  const char *found; /* the value at fault */
   const char *expected;
 } refusal;
 
@@ -81,7 +81,8 @@ static const refusal form_refusals[] = {
     {"void_ratio: 0.7", "void_ratio: nan", 15, "states[0].void_ratio", "'nan'", "expected a number"},
     {"void_ratio: 0.7", "void_ratio: 1.0e999", 15, "states[0].void_ratio", "'1.0e999'", "expected a number"},
     {"[-100, -100, -100, 0, 0, 0]", "[-100, -100, -100]", 19, "states[1].stress", "3 numbers", "expected 6"},
-    {"[-100, -100, -100, 0, 0, 0]", "[-100, -100, -100, 0, 0, 0, 0]", 19, "states[1].stress", "7 numbers", "expected 6"},
+    {"[-100, -100, -100, 0, 0, 0]", "[-100, -100, -100, 0, 0, 0, 0]", 19, "states[1].stress", "7 numbers",
+     "expected 6"},
     {"[-100, -100, -100, 0, 0, 0]", "-100", 19, "states[1].stress", "'-100'", "expected a list of 6 numbers"},
     {"[-100, -100, -100, 0, 0, 0]", "[-100, -100, x, 0, 0, 0]", 19, "states[1].stress[2]", "'x'", "expected a number"},
     {"rows: 10", "rows: 1e3", 31, "tests[0].steps[0].rows", "'1e3'", "expected a whole number"},
@@ -106,7 +107,8 @@ static const refusal meaning_refusals[] = {
     {"name: own", "name: sand", 7, "materials[1].name", "'sand' is also the name of materials[0]", "its own"},
     {"alpha: 0.25, ", "", 8, "materials[1].parameters", "'alpha' is missing", "a built-in sand"},
     {"    intergranular: false\n", "", 8, "materials[1].parameters", "'m_R' is missing", "a built-in sand"},
-    {"sand: hochstetten", "sand: toyoura\n    intergranular: true", 7, "materials[0].intergranular", "m_R is 0", "m_R > 0.5"},
+    {"sand: hochstetten", "sand: toyoura\n    intergranular: true", 7, "materials[0].intergranular", "m_R is 0",
+     "m_R > 0.5"},
     {"phi_c: 33", "phi_c: 95", 8, "materials[1].parameters.phi_c", "95", "expected"},
     {"e_c0: 0.95", "e_c0: 0.45", 8, "materials[1].parameters", "0.45", "e_d0 < e_c0"},
     {"material: own", "material: clay", 18, "states[1].material", "'clay' is not defined", "the deck's materials"},
@@ -119,28 +121,33 @@ static const refusal meaning_refusals[] = {
     {"    delta: {zero: true}\n", "", 12, "states[0]", "'delta' is missing", "expected one of zero: true"},
     {"{zero: true}", "{zero: false}", 16, "states[0].delta.zero", "false", "expected one of zero: true"},
     {"{zero: true}", "{}", 16, "states[0].delta", "0 sources", "expected one of"},
-    {"{zero: true}", "{zero: true, components: [0, 0, 0, 0, 0, 0]}", 16, "states[0].delta", "2 sources", "expected one of"},
+    {"{zero: true}", "{zero: true, components: [0, 0, 0, 0, 0, 0]}", 16, "states[0].delta", "2 sources",
+     "expected one of"},
     {"{zero: true}", "{zero: true, c: 0.05}", 16, "states[0].delta.c", "no meaning", "only with fabric or contacts"},
     {"{zero: true}", "{zero: true, particles: 5}", 16, "states[0].delta.particles", "no meaning", "only with contacts"},
     {"{zero: true}", "{mobilised: [0, 0, 0, 0, 0, 0]}", 16, "states[0].delta.mobilised", "zero tensor", "a direction"},
-    {"{zero: true}", "{components: [1.0e-3, 0, 0, 0, 0, 0]}", 16, "states[0].delta", "|delta| = ", "expected |delta| <= R"},
+    {"{zero: true}", "{components: [1.0e-3, 0, 0, 0, 0, 0]}", 16, "states[0].delta",
+     "|delta| = ", "expected |delta| <= R"},
     {"{zero: true}", "{fabric: [0.5, 0.5, 0.5, 0, 0, 0]}", 16, "states[0].delta.fabric", "trace is 1.5", "expected 1"},
     {"{zero: true}", "{fabric: [0.334, 0.333, 0.333, 0, 0, 0], c: 0}", 16, "states[0].delta.c", "0", "c > 0"},
     {"{zero: true}", "{contacts: absent.txt}", 16, "states[0].delta.contacts", "absent.txt", "No such file"},
     {"{zero: true}", "{contacts: list.txt, separator: ab}", 16, "states[0].delta.separator", "'ab'", "\",\""},
-    {"{zero: true}", "{contacts: list.txt, particles: 0}", 16, "states[0].delta.particles", "0", "a number of particles"},
+    {"{zero: true}", "{contacts: list.txt, particles: 0}", 16, "states[0].delta.particles", "0",
+     "a number of particles"},
     {"name: two", "name: one", 33, "tests[1].name", "'one' is also the name of tests[0]", "its own"},
     {"name: env", "name: one", 40, "envelopes[0].name", "'one' is also the name of tests[0]", "its own"},
     {"name: two", "name: a/b", 33, "tests[1].name", "'a/b'", "letters, digits, - _ ."},
     {"name: two", "name: .hidden", 33, "tests[1].name", "'.hidden'", "no dot in front"},
-    {"state: start\n    tolerance", "state: nowhere\n    tolerance", 23, "tests[0].state", "'nowhere'", "the deck's states"},
+    {"state: start\n    tolerance", "state: nowhere\n    tolerance", 23, "tests[0].state", "'nowhere'",
+     "the deck's states"},
     {"tolerance: 1.0e-7", "tolerance: -1", 24, "tests[0].tolerance", "-1", "between 0 and 1"},
-    {"preset: oedometer_loading", "preset: oedometer", 27, "tests[0].steps[0].preset", "oedometer", "oedometer_loading"},
+    {"preset: oedometer_loading", "preset: oedometer", 27, "tests[0].steps[0].preset", "oedometer",
+     "oedometer_loading"},
     {"        preset: oedometer_loading\n", "", 26, "tests[0].steps[0]", "neither 'preset'", "one of them"},
     {"        axis: z\n", "", 26, "tests[0].steps[0]", "'axis' is missing", "x, y, z"},
     {"rate: 2", "rate: -2", 29, "tests[0].steps[0].rate", "-2", "rate > 0"},
-    {"quantity: eps_zz, value: -0.001", "quantity: eps_z, value: -0.001", 30, "tests[0].steps[0].until.quantity", "'eps_z'",
-     "time, eps_xx, eps_yy"},
+    {"quantity: eps_zz, value: -0.001", "quantity: eps_z, value: -0.001", 30, "tests[0].steps[0].until.quantity",
+     "'eps_z'", "time, eps_xx, eps_yy"},
     {"max_time: 1", "max_time: 0", 32, "tests[0].steps[0].max_time", "0", "a time > 0"},
     {"zz: {strain_rate: -1}", "zz: {strain_rate: -1, stress_rate: 0}", 36, "tests[1].steps[0].control.zz", "both",
      "one of them"},
@@ -148,7 +155,8 @@ static const refusal meaning_refusals[] = {
     {"value: 0.001}", "value: -0.001}", 38, "tests[1].steps[0].every.value", "-0.001", "a spacing > 0"},
     {"every: {", "rows: 5\n        every: {", 39, "tests[1].steps[0].every", "'rows' is given too", "one of them"},
     {"state: plain}", "state: gone}", 46, "envelopes[0].series[1].state", "'gone'", "the deck's states"},
-    {"state: plain}", "state: plain, intergranular: true}", 46, "envelopes[0].series[1].intergranular", "m_R = 0", "false"},
+    {"state: plain}", "state: plain, intergranular: true}", 46, "envelopes[0].series[1].intergranular", "m_R = 0",
+     "false"},
     {"name: b,", "name: a,", 46, "envelopes[0].series[1].name", "'a' is also", "its own"},
     {"name: b,", "name: \"b,c\",", 46, "envelopes[0].series[1].name", "'b,c'", "letters, digits"},
     {"size: 0", "size: -1", 42, "envelopes[0].size", "-1", "expected 0 (rates)"},
@@ -157,8 +165,8 @@ static const refusal meaning_refusals[] = {
 
 /* Ends out of reach: the quantity is held, or driven the other way. */
 static const refusal reach_refusals[] = {
-    {"quantity: eps_zz, value: -0.002", "quantity: eps_xx, value: -0.002", 37, "tests[1].steps[0].until.value", "-0.002",
-     "the step holds eps_xx"},
+    {"quantity: eps_zz, value: -0.002", "quantity: eps_xx, value: -0.002", 37, "tests[1].steps[0].until.value",
+     "-0.002", "the step holds eps_xx"},
     {"quantity: eps_zz, value: -0.002", "quantity: sig_yy, value: -200", 37, "tests[1].steps[0].until.value", "-200",
      "the step holds sig_yy"},
     {"quantity: eps_zz, value: -0.002", "quantity: eps_zz, value: 0.002", 37, "tests[1].steps[0].until.value", "0.002",
@@ -167,9 +175,11 @@ static const refusal reach_refusals[] = {
      "eps_v starts the step at 0 and falls"},
     {"quantity: eps_zz, value: -0.002", "quantity: time, value: -1", 37, "tests[1].steps[0].until.value", "-1",
      "time starts the step at 0 and grows"},
-    {"        preset: oedometer_loading\n        axis: z\n        rate: 2\n        until: {quantity: eps_zz, value: -0.001}",
-     "        preset: undrained_triaxial_compression\n        axis: z\n        until: {quantity: void_ratio, value: 0.6}\n", 29,
-     "tests[0].steps[0].until.value", "0.6", "the step holds void_ratio"},
+    {"        preset: oedometer_loading\n        axis: z\n        rate: 2\n        until: {quantity: eps_zz, value: "
+     "-0.001}",
+     "        preset: undrained_triaxial_compression\n        axis: z\n        until: {quantity: void_ratio, value: "
+     "0.6}\n",
+     29, "tests[0].steps[0].until.value", "0.6", "the step holds void_ratio"},
 };
 
 static char *replaced(const char *from, const char *to) {
@@ -234,8 +244,9 @@ static void an_end_behind_a_known_start_is_refused_in_later_steps(void **state) 
                         "      - {preset: oedometer_loading, axis: z, until: {quantity: eps_zz, value: -0.0005}}\n");
   hypofab_study *study;
   assert_int_equal(hypofab_study_load(scratch_write("deck.yaml", text), &study), HYPOFAB_BAD_FILE);
-  assert_non_null(strstr(hypofab_last_message(), "deck.yaml:31: tests[0].steps[1].until.value: -0.0005 is never reached: "
-                                                 "eps_zz starts the step at -0.001 and falls"));
+  assert_non_null(strstr(hypofab_last_message(),
+                         "deck.yaml:31: tests[0].steps[1].until.value: -0.0005 is never reached: "
+                         "eps_zz starts the step at -0.001 and falls"));
   free(text);
 }
 
@@ -283,7 +294,8 @@ static void the_schema_knows_every_parameter(void **state) {
     hypofab_parameter_info info;
     assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);
     char from[] = "    sand: hochstetten\n", to[200];
-    snprintf(to, sizeof to, "%s    parameters: {%s: 1.0e-300}\n", from, info.name); /* out of bounds where there are any */
+    snprintf(to, sizeof to, "%s    parameters: {%s: 1.0e-300}\n", from,
+             info.name); /* out of bounds where there are any */
     char *text = replaced(from, to), place[200];
     hypofab_study *study = NULL;
     const hypofab_status status = hypofab_study_load(scratch_write("deck.yaml", text), &study);

@@ -52,7 +52,8 @@ static const char *deck_in(const char *unit, double factor, int sign) {
            "    state: a\n"
            "    tolerance: 1.0e-12\n"
            "    steps:\n"
-           "      - control: {xx: {stress_rate: %.17g}, yy: {stress_rate: 0}, zz: {strain_rate: %d}, xy: {strain_rate: %g}}\n"
+           "      - control: {xx: {stress_rate: %.17g}, yy: {stress_rate: 0}, zz: {strain_rate: %d}, xy: {strain_rate: "
+           "%g}}\n"
            "        until: {quantity: eps_zz, value: %.17g}\n"
            "        rows: 20\n"
            "      - control: {xx: {stress_rate: 0}, yy: {stress_rate: 0}, zz: {strain_rate: %d}}\n"
@@ -64,20 +65,22 @@ static const char *deck_in(const char *unit, double factor, int sign) {
            "    steps:\n"
            "      - {preset: oedometer_loading, axis: x, until: {quantity: sig_xx, value: %.17g}, rows: 15}\n"
            "envelopes:\n"
-           "  - {name: env, axis: x, probes: 36, series: [{name: a, state: a}, {name: b, state: b, intergranular: false}]}\n",
+           "  - {name: env, axis: x, probes: 36, series: [{name: a, state: a}, {name: b, state: b, intergranular: "
+           "false}]}\n",
            unit, sign > 0 ? "tension_positive" : "compression_positive", 9e5 * factor, 0.5 * factor, -100 * s, -90 * s,
-           -150 * s, 5 * s, sign * -3.0e-5, sign * 2.0e-5, sign * -4.0e-5, sign * 3.0e-6, sign * 1.0e-6, 120 * factor, -sign, 1000 * s, -sign, sign * 0.3,
-           sign * -0.002, sign, 110 * factor, -160 * s);
+           -150 * s, 5 * s, sign * -3.0e-5, sign * 2.0e-5, sign * -4.0e-5, sign * 3.0e-6, sign * 1.0e-6, 120 * factor,
+           -sign, 1000 * s, -sign, sign * 0.3, sign * -0.002, sign, 110 * factor, -160 * s);
   return text;
 }
 
 static bool is_stress(const char *name) {
-  return strncmp(name, "sig_", 4) == 0 || strncmp(name, "response_", 9) == 0 || !strcmp(name, "p") || !strcmp(name, "q");
+  return strncmp(name, "sig_", 4) == 0 || strncmp(name, "response_", 9) == 0 || !strcmp(name, "p") ||
+         !strcmp(name, "q");
 }
 
 static bool changes_sign(const char *name) {
-  const char *const starts[] = {"eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz", "eps_yz", "sig_", "delta_", "eps_v",
-                                "D_", "response_"};
+  const char *const starts[] = {"eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz",   "eps_yz",
+                                "sig_",   "delta_", "eps_v",  "D_",     "response_"};
   for (size_t i = 0; i < sizeof starts / sizeof *starts; ++i)
     if (strncmp(name, starts[i], strlen(starts[i])) == 0) return true;
   return false;
@@ -119,7 +122,8 @@ static void pascals_and_megapascals_give_the_same_answer(void **state) {
     double factor;
   } units[] = {{"kPa", 1}, {"Pa", 1e3}, {"MPa", 1e-3}};
   for (int i = 0; i < 3; ++i) {
-    assert_int_equal(run_text(deck_in(units[i].name, units[i].factor, 1), scratch_path("%d", i), NULL, NULL), HYPOFAB_OK);
+    assert_int_equal(run_text(deck_in(units[i].name, units[i].factor, 1), scratch_path("%d", i), NULL, NULL),
+                     HYPOFAB_OK);
     assert_int_equal(probe_text(deck_in(units[i].name, units[i].factor, 1), scratch_path("%d", i)), HYPOFAB_OK);
   }
   for (int i = 1; i < 3; ++i) {
