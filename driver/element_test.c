@@ -133,8 +133,10 @@ static int next_row_event(const run *r, const schedule *s, double to, const test
   if (!(spacing.value > 0.0)) return 0;
   const double moved = quantity_value(spacing.quantity, r->material, to, end) - s->last_row;
   if (fabs(moved) < spacing.value * (1.0 - met)) return 0;
-  *e = (event){event_mark, r->material, NULL, HYPOFAB_PLAIN,
-               {spacing.quantity, s->last_row + copysign(spacing.value, moved)}};
+  const double value = s->last_row + copysign(spacing.value, moved);
+  const hypofab_mark until = s->end.mark;
+  if (spacing.quantity == until.quantity && fabs(value - until.value) < 1e-9 * spacing.value) return 0; /* the end */
+  *e = (event){event_mark, r->material, NULL, HYPOFAB_PLAIN, {spacing.quantity, value}};
   return 1;
 }
 

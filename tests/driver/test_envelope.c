@@ -1,0 +1,108 @@
+/* Response envelopes: what is known of them in closed form. */
+#include <math.h>
+#include <string.h>
+
+#include "hypofab.h"
+#include "support/tensors.h"
+
+/* clang-format off: cmocka needs these first */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+/* clang-format on */
+
+enum { N = 72 };
+
+static hypofab_state start(const hypofab_material *material, double u, double v) {
+  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7};
+  const double size = sqrt(u * u + 2.0 * v * v);
+  const double delta[3] = {v, u, v};
+  if (size > 0.0)
+    for (int k = 0; k < 3; k++) state.delta[k] = material->R * (1.0 - 1e-15) * delta[k] / size;
+  return state;
+}
+
+/* Where delta:D > 0 and rho = 1 the response is that of the plain model; elsewhere it is larger (paper 000, Figure 1). */
+static void test_loading_half_is_the_plain_envelope(void **unused) {
+  (void)unused;
+  hypofab_material material, plain;
+  hypofab_probe with[N], without[N];
+  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  plain = material;
+  plain.m_R = 0.0;
+  const hypofab_state state = start(&material, -1.0, 0.5);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, with), HYPOFAB_OK);
+  assert_int_equal(hypofab_envelope(&plain, &state, 1, 0.0, N, without), HYPOFAB_OK);
+  int loading = 0;
+  for (int i = 0; i < N; i++) {
+    assert_true(fabs(tensor_norm(with[i].stretching) - 1.0) < 1e-14);
+    const double along = tensor_dot(state.delta, with[i].stretching) / material.R;
+    if (along > 1e-9) {
+      /* N:|D| of the plain model is N (deltahat:D) here, so both agree along delta itself only; compare there. */
+      loading++;
+      if (along > 1.0 - 1e-6)
+        assert_true(tensor_distance(with[i].response, without[i].response) < 1e-3 * tensor_norm(with[i].response));
+    } else if (along < -1e-9) {
+      assert_true(tensor_norm(with[i].response) > tensor_norm(without[i].response));
+    }
+  }
+  assert_true(loading >= N / 2 - 2);
+}
+
+/* Without delta the material is m_R times as stiff as L, and L is linear: opposite probes answer oppositely. */
+static void test_unmobilised_is_linear(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_probe probes[N];
+  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  const hypofab_state state = start(&material, 0.0, 0.0);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, probes), HYPOFAB_OK);
+  for (int i = 0; i < N / 2; i++) {
+    double sum[6];
+    for (int k = 0; k < 6; k++) sum[k] = -probes[i + N / 2].response[k];
+    assert_true(tensor_distance(probes[i].response, sum) < 1e-12 * tensor_norm(sum));
+  }
+}
+
+/* Finite probes tend to the rates as they shrink, at first order. */
+static void test_small_finite_probes_are_the_rates(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_probe rates[N], small[N], smaller[N];
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = start(&material, 0.3, -1.0);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, rates), HYPOFAB_OK);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 1e-7, N, small), HYPOFAB_OK);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 1e-8, N, smaller), HYPOFAB_OK);
+  for (int i = 0; i < N; i++) {
+    const double size = tensor_norm(rates[i].response);
+    assert_true(tensor_distance(small[i].response, rates[i].response) < 2e-2 * size);
+    assert_true(tensor_distance(smaller[i].response, rates[i].response) < 2e-3 * size);
+  }
+}
+
+static void test_refusals(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_probe probes[N];
+  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  hypofab_state state = start(&material, 1.0, 0.0);
+  assert_int_equal(hypofab_envelope(&material, &state, 3, 0.0, N, probes), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, -1.0, N, probes), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, 0, probes), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 0.5, N, probes), HYPOFAB_OUT_OF_DOMAIN);
+  assert_non_null(strstr(hypofab_last_message(), "degrees"));
+  state.void_ratio = 0.0;
+  assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, probes), HYPOFAB_BAD_STATE);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_loading_half_is_the_plain_envelope),
+      cmocka_unit_test(test_unmobilised_is_linear),
+      cmocka_unit_test(test_small_finite_probes_are_the_rates),
+      cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
