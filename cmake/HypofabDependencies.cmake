@@ -12,5 +12,6 @@ find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
 add_library(hypofab_dependencies INTERFACE)
 target_include_directories(hypofab_dependencies INTERFACE ${CSV_INCLUDE_DIR})
 target_link_libraries(
-  hypofab_dependencies INTERFACE SUNDIALS::arkode SUNDIALS::nvecserial LAPACK::LAPACK GSL::gsl ZLIB::ZLIB PkgConfig::CYAML
+  # GSL before LAPACK: its plain BLAS serves 6x6 systems better than a threaded one that LAPACK may bring along.
+  hypofab_dependencies INTERFACE SUNDIALS::arkode SUNDIALS::nvecserial GSL::gsl LAPACK::LAPACK ZLIB::ZLIB PkgConfig::CYAML
                                  PkgConfig::JANSSON ${CSV_LIBRARY} m)

@@ -33,7 +33,7 @@ static hypofab_status solve(const hypofab_material *material, const hypofab_stat
   if (status) return status;
 
   /* S = A M + B and the right-hand sides c and A jump, rows scaled: stress and strain conditions differ by 1e5. */
-  double matrix[36], conditions[6], jumps[6];
+  double matrix[36], rhs[12];
   for (int i = 0; i < 6; i++) {
     double row[6], along_jump = 0.0, largest = 0.0;
     for (int j = 0; j < 6; j++) row[j] = step->on_strain[i][j];
@@ -43,26 +43,29 @@ static hypofab_status solve(const hypofab_material *material, const hypofab_stat
       for (int j = 0; j < 6; j++) row[j] += a * s->stiffness[6 * k + j];
       along_jump += a * s->jump[k];
     }
-    for (int j = 0; j < 6; j++) largest = fmax(largest, fabs(row[j]));
+    for (int j = 0; j < 6; j++)
+      if (fabs(row[j]) > largest) largest = fabs(row[j]);
     if (largest == 0.0) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
     for (int j = 0; j < 6; j++) matrix[6 * i + j] = row[j] / largest;
-    conditions[i] = step->rate[i] / largest;
-    jumps[i] = along_jump / largest;
+    rhs[2 * i] = step->rate[i] / largest;
+    rhs[2 * i + 1] = along_jump / largest;
   }
   size_t order[6];
   gsl_permutation permutation = {6, order};
   gsl_matrix_view S = gsl_matrix_view_array(matrix, 6, 6);
   int sign;
   gsl_linalg_LU_decomp(&S.matrix, &permutation, &sign);
-  /* Checked here, because GSL's own error handler ends the program. */
   double smallest = INFINITY;
-  for (int i = 0; i < 6; i++) smallest = fmin(smallest, fabs(matrix[7 * i]));
+  for (int i = 0; i < 6; i++)
+    if (!(fabs(matrix[7 * i]) > smallest)) smallest = fabs(matrix[7 * i]);
   if (!(smallest > singular))
     return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the prescribed rates are singular at this state");
-  gsl_vector_view c = gsl_vector_view_array(conditions, 6), j = gsl_vector_view_array(jumps, 6);
-  gsl_vector_view d = gsl_vector_view_array(s->reversal, 6), z = gsl_vector_view_array(s->response, 6);
-  gsl_linalg_LU_solve(&S.matrix, &permutation, &c.vector, &d.vector);
-  gsl_linalg_LU_solve(&S.matrix, &permutation, &j.vector, &z.vector);
+  double solution[12]; /* both at once: a library call for six numbers costs more than the numbers */
+  for (int i = 0; i < 6; i++) solution[2 * i] = rhs[2 * order[i]], solution[2 * i + 1] = rhs[2 * order[i] + 1];
+  gsl_matrix_view X = gsl_matrix_view_array(solution, 6, 2);
+  gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasUnit, 1.0, &S.matrix, &X.matrix);
+  gsl_blas_dtrsm(CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, 1.0, &S.matrix, &X.matrix);
+  for (int i = 0; i < 6; i++) s->reversal[i] = solution[2 * i], s->response[i] = solution[2 * i + 1];
   return HYPOFAB_OK;
 }
 

@@ -44,7 +44,7 @@ static void directional_stiffness_is_that_of_table_4(void **state) {
     near(tests[i].name, G, tests[i].paper, 5e-3);
 
     table t = table_read(scratch_path("results/%s.csv", tests[i].name));
-    assert_int_equal(t.rows, 1001);
+    assert_true(t.rows >= 1001);
     const char *const components[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
     for (int k = 0; k < 6; ++k) {
       char column[16];
