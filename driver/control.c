@@ -18,18 +18,17 @@ static double dot(const double a[6], const double b[6]) {
 
 /* The conditions at one state, solved on the reversal branch (without intergranular strain: without N). */
 typedef struct solved {
-  hypofab_branch model;     /* HYPOFAB_PLAIN, or HYPOFAB_LOADING when the model has two branches */
-  double stiffness[36];     /* of the reversal branch */
-  double jump[6];           /* what loading adds: jump (direction:D), or jump |D| */
-  double direction[6];      /* deltahat */
-  double reversal[6];       /* D on the reversal branch */
-  double response[6];       /* z = S^-1 A jump */
+  hypofab_branch model; /* HYPOFAB_PLAIN, or HYPOFAB_LOADING when the model has two branches */
+  double stiffness[36]; /* of the reversal branch */
+  double jump[6];       /* what loading adds: jump (direction:D), or jump |D| */
+  double direction[6];  /* deltahat */
+  double reversal[6];   /* D on the reversal branch */
+  double response[6];   /* z = S^-1 A jump */
 } solved;
 
 static hypofab_status solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
                             solved *s) {
-  hypofab_status status =
-      hypofab_linear_parts(material, state, s->stiffness, s->jump, s->direction, &s->model);
+  hypofab_status status = hypofab_linear_parts(material, state, s->stiffness, s->jump, s->direction, &s->model);
   if (status) return status;
 
   /* S = A M + B and the right-hand sides c and A jump, rows scaled: stress and strain conditions differ by 1e5. */
@@ -45,7 +44,8 @@ static hypofab_status solve(const hypofab_material *material, const hypofab_stat
     }
     for (int j = 0; j < 6; j++)
       if (fabs(row[j]) > largest) largest = fabs(row[j]);
-    if (largest == 0.0) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
+    if (largest == 0.0)
+      return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
     for (int j = 0; j < 6; j++) matrix[6 * i + j] = row[j] / largest;
     rhs[2 * i] = step->rate[i] / largest;
     rhs[2 * i + 1] = along_jump / largest;
@@ -86,7 +86,8 @@ static hypofab_status plain_size(const solved *s, double *size) {
     return HYPOFAB_OK;
   }
   if (n_admissible == 0)
-    return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "no strain rate satisfies the prescribed rates (a peak or limit state)");
+    return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
+                        "no strain rate satisfies the prescribed rates (a peak or limit state)");
   if (n_admissible == 2) return hypofab_fail(HYPOFAB_NOT_UNIQUE, "two strain rates satisfy the prescribed rates");
   return HYPOFAB_OK;
 }
@@ -143,9 +144,10 @@ hypofab_status control_choose_branch(const hypofab_material *material, const hyp
   }
   const double along = dot(s.direction, s.reversal), g = determinant_ratio(&s);
   if (!(g > 0.0))
-    return along < 0.0 ? hypofab_fail(HYPOFAB_NOT_UNIQUE, "two strain rates satisfy the prescribed rates, one on each branch")
-                       : hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
-                                      "no strain rate satisfies the prescribed rates (a peak or limit state)");
+    return along < 0.0
+               ? hypofab_fail(HYPOFAB_NOT_UNIQUE, "two strain rates satisfy the prescribed rates, one on each branch")
+               : hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
+                              "no strain rate satisfies the prescribed rates (a peak or limit state)");
   /* At along = 0 delta turns towards D at once, which is loading; delta = 0 is loading too. */
   *branch = along < 0.0 ? HYPOFAB_REVERSAL : HYPOFAB_LOADING;
   return HYPOFAB_OK;

@@ -17,8 +17,8 @@ typedef struct control_rates {
 /**
  * @brief Solve the six conditions of a step on a given branch.
  *
- * The branch is an argument, so that an integrator can stay on a smooth right-hand side; along < 0 on the loading branch
- * (or > 0 in reversal) then says that the step has crossed to the other branch.
+ * The branch is an argument, so that an integrator can stay on a smooth right-hand side; along < 0 on the loading
+ * branch (or > 0 in reversal) then says that the step has crossed to the other branch.
  * @return HYPOFAB_OUT_OF_DOMAIN, HYPOFAB_NOT_CONTROLLABLE, HYPOFAB_NOT_UNIQUE; outputs are undefined then
  */
 hypofab_status control_solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
@@ -29,8 +29,8 @@ hypofab_status control_solve(const hypofab_material *material, const hypofab_sta
  *
  * The two branches of the stress rate differ by (jump (x) deltahat) D. With S = A M + B of the reversal branch and
  * z = S^-1 A jump, the conditions of the loading branch have the determinant det S g, g = 1 + deltahat:z, and
- * deltahat:D_loading = deltahat:D_reversal/g. So for g > 0 exactly one branch is consistent with its own D; for g < 0 both are
- * (loss of uniqueness) or none is (loss of controllability).
+ * deltahat:D_loading = deltahat:D_reversal/g. So for g > 0 exactly one branch is consistent with its own D; for g < 0
+ * both are (loss of uniqueness) or none is (loss of controllability).
  */
 hypofab_status control_choose_branch(const hypofab_material *material, const hypofab_state *state,
                                      const hypofab_step *step, hypofab_branch *branch);

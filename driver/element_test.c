@@ -92,11 +92,12 @@ static hypofab_status make_schedule(const run *r, const hypofab_step *step, sche
       duration = 0.0;
     } else if (!(to_go / rate > 0.0) || !isfinite(to_go / rate)) {
       return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
-                          "step %d: %s starts at %.9g and changes at the rate %.9g, so it never meets until = %.9g", number,
-                          name, now, rate, until.value);
+                          "step %d: %s starts at %.9g and changes at the rate %.9g, so it never meets until = %.9g",
+                          number, name, now, rate, until.value);
     } else if (step->max_time > 0.0 && to_go / rate > duration) {
-      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "step %d: %s meets until = %.9g after %.9g, beyond max_time = %.9g", number,
-                          name, until.value, to_go / rate, duration);
+      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
+                          "step %d: %s meets until = %.9g after %.9g, beyond max_time = %.9g", number, name,
+                          until.value, to_go / rate, duration);
     } else {
       duration = to_go / rate;
     }
@@ -238,7 +239,8 @@ static hypofab_status run_step(run *r, const hypofab_step *step) {
   schedule s;
   hypofab_status status = make_schedule(r, step, &s);
   if (status) return status;
-  const int met_already = !s.end_is_timed && fabs(event_mark(&s.end, r->time, &r->state)) <= met * fabs(step->until.value);
+  const int met_already =
+      !s.end_is_timed && fabs(event_mark(&s.end, r->time, &r->state)) <= met * fabs(step->until.value);
   if (s.end_time > r->time && !met_already) status = integrate_step(r, step, &s);
   if (!status || (status < HYPOFAB_BAD_MATERIAL && r->time > r->delivered)) {
     hypofab_status delivered = deliver(r);

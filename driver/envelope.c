@@ -28,8 +28,7 @@ hypofab_status hypofab_envelope(const hypofab_material *material, const hypofab_
       status = hypofab_update(material, NULL, &answer, strain, NULL, NULL);
       for (int k = 0; k < 6; k++) probe.response[k] = (answer.stress[k] - state->stress[k]) / size;
     }
-    if (status)
-      return hypofab_fail(status, "probe at %g degrees: %s", probe.angle, hypofab_status_text(status));
+    if (status) return hypofab_fail(status, "probe at %g degrees: %s", probe.angle, hypofab_status_text(status));
     probes[i] = probe;
   }
   return HYPOFAB_OK;

@@ -131,8 +131,8 @@ hypofab_status integrator_start(integrator *it, double time, const test_state *s
     failed = silence(it->erk) || ERKStepSetUserData(it->erk, it) ||
              ERKStepSetTableNum(it->erk, ARKODE_DORMAND_PRINCE_7_4_5) || ERKStepSetMaxNumSteps(it->erk, -1);
   }
-  failed = failed || ERKStepSVtolerances(it->erk, it->tolerance, it->absolute) ||
-           ERKStepSetInitStep(it->erk, first_step);
+  failed =
+      failed || ERKStepSVtolerances(it->erk, it->tolerance, it->absolute) || ERKStepSetInitStep(it->erk, first_step);
   return failed ? hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator could not be set up") : HYPOFAB_OK;
 }
 

@@ -14,8 +14,9 @@ static void clear(hypofab_step *step) {
 hypofab_status hypofab_step_control(hypofab_step *step, const hypofab_control control[6], const double rate[6]) {
   for (int i = 0; i < 6; i++) {
     if (control[i] != HYPOFAB_STRAIN_RATE && control[i] != HYPOFAB_STRESS_RATE)
-      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "control of component %d is %d, expected a strain rate (0) or a stress rate (1)",
-                          i + 1, (int)control[i]);
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
+                          "control of component %d is %d, expected a strain rate (0) or a stress rate (1)", i + 1,
+                          (int)control[i]);
     if (!isfinite(rate[i]))
       return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "rate of component %d is %g, expected a finite number", i + 1, rate[i]);
   }
@@ -103,8 +104,8 @@ hypofab_status hypofab_step_preset(hypofab_step *step, const char *name, int axi
   if (axis < 0 || axis > 2)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "axis is %d, expected 0, 1 or 2 for x, y or z", axis);
   if (!(isfinite(rate) && rate > 0.0))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "rate is %g, expected a number above 0 (the preset's name gives its sign)",
-                        rate);
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
+                        "rate is %g, expected a number above 0 (the preset's name gives its sign)", rate);
   clear(step);
   presets[i].fill(step, axis, presets[i].sign * rate);
   return HYPOFAB_OK;

@@ -4,9 +4,9 @@
 #include <string.h>
 
 static const char *const names[HYPOFAB_N_QUANTITIES] = {
-    "time",     "eps_xx",   "eps_yy",   "eps_zz",   "eps_xy",   "eps_xz",   "eps_yz",     "sig_xx", "sig_yy",
-    "sig_zz",   "sig_xy",   "sig_xz",   "sig_yz",   "delta_xx", "delta_yy", "delta_zz",   "delta_xy", "delta_xz",
-    "delta_yz", "void_ratio", "p",      "q",        "eps_v",    "eps_q",    "rho",        "phi_mob"};
+    "time",     "eps_xx",     "eps_yy", "eps_zz", "eps_xy",   "eps_xz",   "eps_yz",   "sig_xx",   "sig_yy",
+    "sig_zz",   "sig_xy",     "sig_xz", "sig_yz", "delta_xx", "delta_yy", "delta_zz", "delta_xy", "delta_xz",
+    "delta_yz", "void_ratio", "p",      "q",      "eps_v",    "eps_q",    "rho",      "phi_mob"};
 
 const char *hypofab_quantity_name(hypofab_quantity quantity) {
   return (unsigned)quantity < HYPOFAB_N_QUANTITIES ? names[quantity] : NULL;

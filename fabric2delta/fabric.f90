@@ -58,7 +58,7 @@ contains
     block = 0.0_wp
     do i = 1, n
       associate (x => normals(1, i), y => normals(2, i), z => normals(3, i))
-        block = block + [x*x, y*y, z*z, x*y, x*z, y*z]/(x*x + y*y + z*z)
+        block = block + [x * x, y * y, z * z, x * y, x * z, y * z] / (x * x + y * y + z * z)
       end associate
     end do
     sums = sums + block
@@ -79,8 +79,8 @@ contains
     fabric%coordination_number = ieee_value(1.0_wp, ieee_quiet_nan)
     fabric%mechanical_coordination_number = ieee_value(1.0_wp, ieee_quiet_nan)
     fabric%fabric = tensor
-    fabric%deviatoric_fabric = 7.5_wp*(tensor - unit_tensor/3.0_wp)
-    fabric%anisotropy = sqrt(1.5_wp)*frobenius_norm(fabric%deviatoric_fabric)
+    fabric%deviatoric_fabric = 7.5_wp * (tensor - unit_tensor / 3.0_wp)
+    fabric%anisotropy = sqrt(1.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
     call find_principal(tensor, fabric%principal_values, fabric%principal_directions, info)
   end function describe_fabric
 
@@ -98,11 +98,11 @@ contains
 
     fabric%contacts = contacts
     fabric%particles = particles
-    fabric%coordination_number = quotient(2*contacts, particles)
+    fabric%coordination_number = quotient(2 * contacts, particles)
     if (none < 0) then
       fabric%mechanical_coordination_number = quotient(0_c_int64_t, 0_c_int64_t)
     else
-      fabric%mechanical_coordination_number = quotient(2*contacts - one, particles - none - one)
+      fabric%mechanical_coordination_number = quotient(2 * contacts - one, particles - none - one)
     end if
   end subroutine count_coordination
 
@@ -119,10 +119,10 @@ contains
     real(wp) :: norm
 
     map%weight = weight_of_anisotropy(fabric%anisotropy, c)
-    map%weighted_fabric = (1.0_wp - map%weight)*unit_tensor + map%weight*fabric%deviatoric_fabric
+    map%weighted_fabric = (1.0_wp - map%weight) * unit_tensor + map%weight * fabric%deviatoric_fabric
     norm = frobenius_norm(map%weighted_fabric)
     if (norm > 0.0_wp) then
-      map%delta = (R/norm)*map%weighted_fabric
+      map%delta = (R / norm) * map%weighted_fabric
     else
       map%delta = ieee_value(1.0_wp, ieee_quiet_nan)
     end if
@@ -134,14 +134,14 @@ contains
   pure real(wp) function weight_of_anisotropy(a, c) result(f)
     real(wp), intent(in) :: a, c
 
-    f = 1.0_wp - exp(-a/c)
+    f = 1.0_wp - exp(-a / c)
   end function weight_of_anisotropy
 
   !> |x| = sqrt(x:x) of a symmetric tensor, each shear component counted twice.
   pure real(wp) function frobenius_norm(x) result(norm)
     real(wp), intent(in) :: x(6)
 
-    norm = norm2([x(1:3), sqrt(2.0_wp)*x(4:6)])
+    norm = norm2([x(1:3), sqrt(2.0_wp) * x(4:6)])
   end function frobenius_norm
 
   !> a/b of two counts, NaN for b <= 0.
@@ -149,7 +149,7 @@ contains
     integer(c_int64_t), intent(in) :: a, b
 
     if (b > 0) then
-      q = real(a, wp)/real(b, wp)
+      q = real(a, wp) / real(b, wp)
     else
       q = ieee_value(1.0_wp, ieee_quiet_nan)
     end if
@@ -172,11 +172,11 @@ contains
     values = ascending(3:1:-1)
     do i = 1, 2
       associate (v => matrix(:, 4 - i))
-        directions(:, i) = sign(1.0_wp, v(maxloc(abs(v), dim=1)))*v
+        directions(:, i) = sign(1.0_wp, v(maxloc(abs(v), dim=1))) * v
       end associate
     end do
     associate (u => directions(:, 1), v => directions(:, 2))
-      directions(:, 3) = [u(2)*v(3) - u(3)*v(2), u(3)*v(1) - u(1)*v(3), u(1)*v(2) - u(2)*v(1)]
+      directions(:, 3) = [u(2) * v(3) - u(3) * v(2), u(3) * v(1) - u(1) * v(3), u(1) * v(2) - u(2) * v(1)]
     end associate
   end subroutine find_principal
 

@@ -35,18 +35,18 @@ extern "C" {
 /** Outcome of a call. 1..99: a physical finding; 100..199: bad input; 200..: internal error. */
 typedef enum hypofab_status {
   HYPOFAB_OK = 0,
-  HYPOFAB_NOT_CONTROLLABLE = 1, /**< no strain rate satisfies the prescribed rates (peak, limit point) */
-  HYPOFAB_NOT_UNIQUE = 2,       /**< two strain rates satisfy the prescribed rates */
-  HYPOFAB_OUT_OF_DOMAIN = 3,    /**< a principal stress became tensile or zero, or void ratio left (0, inf) */
-  HYPOFAB_STEP_LIMIT = 4,       /**< the bound on work (rate evaluations, integrator steps) was reached */
+  HYPOFAB_NOT_CONTROLLABLE = 1,   /**< no strain rate satisfies the prescribed rates (peak, limit point) */
+  HYPOFAB_NOT_UNIQUE = 2,         /**< two strain rates satisfy the prescribed rates */
+  HYPOFAB_OUT_OF_DOMAIN = 3,      /**< a principal stress became tensile or zero, or void ratio left (0, inf) */
+  HYPOFAB_STEP_LIMIT = 4,         /**< the bound on work (rate evaluations, integrator steps) was reached */
   HYPOFAB_TARGET_NOT_REACHED = 5, /**< a step ran its maximum time without meeting its end condition */
-  HYPOFAB_INTERRUPTED = 6,      /**< the caller's callback asked to stop */
-  HYPOFAB_BAD_MATERIAL = 100,   /**< a parameter is outside its admissible range, or unknown */
-  HYPOFAB_BAD_STATE = 101,      /**< a state is outside the model's domain, or not finite */
-  HYPOFAB_BAD_ARGUMENT = 102,   /**< another argument is wrong */
-  HYPOFAB_BAD_FILE = 103,       /**< a file cannot be read, or its content is wrong */
+  HYPOFAB_INTERRUPTED = 6,        /**< the caller's callback asked to stop */
+  HYPOFAB_BAD_MATERIAL = 100,     /**< a parameter is outside its admissible range, or unknown */
+  HYPOFAB_BAD_STATE = 101,        /**< a state is outside the model's domain, or not finite */
+  HYPOFAB_BAD_ARGUMENT = 102,     /**< another argument is wrong */
+  HYPOFAB_BAD_FILE = 103,         /**< a file cannot be read, or its content is wrong */
   HYPOFAB_NO_MEMORY = 200,
-  HYPOFAB_IO_ERROR = 201,       /**< a result file cannot be written */
+  HYPOFAB_IO_ERROR = 201, /**< a result file cannot be written */
   HYPOFAB_INTERNAL_ERROR = 202
 } hypofab_status;
 
@@ -105,7 +105,7 @@ int hypofab_sand_count(void);
 
 /** What is known of one built-in sand. Strings are static. */
 typedef struct hypofab_sand_info {
-  const char *name;        /**< key, e.g. "hochstetten_wolffersdorff" */
+  const char *name;        /**< key, e.g. "hochstetten" */
   const char *description; /**< one line */
   const char *source;      /**< publication the parameters come from */
 } hypofab_sand_info;
@@ -140,9 +140,9 @@ hypofab_status hypofab_state_check(const hypofab_material *material, const hypof
 
 /** Branches of the model: told apart by the sign of delta : D. */
 typedef enum hypofab_branch {
-  HYPOFAB_PLAIN = 0,    /**< no intergranular strain: Tdot = L D + N |D| */
-  HYPOFAB_LOADING = 1,  /**< delta : D > 0, and delta = 0 */
-  HYPOFAB_REVERSAL = 2  /**< delta : D <= 0 */
+  HYPOFAB_PLAIN = 0,   /**< no intergranular strain: Tdot = L D + N |D| */
+  HYPOFAB_LOADING = 1, /**< delta : D > 0, and delta = 0 */
+  HYPOFAB_REVERSAL = 2 /**< delta : D <= 0 */
 } hypofab_branch;
 
 /**
@@ -184,8 +184,8 @@ void hypofab_delta_rate(const hypofab_material *material, const double delta[6],
 
 /** Options of hypofab_update; zero in a field takes its default. */
 typedef struct hypofab_update_options {
-  double tolerance;     /**< relative local error of stress, delta and void ratio; default 1e-6 */
-  int max_evaluations;  /**< bound on rate evaluations; default 20000 */
+  double tolerance;    /**< relative local error of stress, delta and void ratio; default 1e-6 */
+  int max_evaluations; /**< bound on rate evaluations; default 20000 */
 } hypofab_update_options;
 
 /** What an update did. */
@@ -217,15 +217,30 @@ double hypofab_friction_angle(const double stress[6]);
 /** Output quantities: the columns of a result row, and what a step's end and row spacing may refer to. */
 typedef enum hypofab_quantity {
   HYPOFAB_TIME = 0,
-  HYPOFAB_EPS_XX, HYPOFAB_EPS_YY, HYPOFAB_EPS_ZZ, HYPOFAB_EPS_XY, HYPOFAB_EPS_XZ, HYPOFAB_EPS_YZ,
-  HYPOFAB_SIG_XX, HYPOFAB_SIG_YY, HYPOFAB_SIG_ZZ, HYPOFAB_SIG_XY, HYPOFAB_SIG_XZ, HYPOFAB_SIG_YZ,
-  HYPOFAB_DELTA_XX, HYPOFAB_DELTA_YY, HYPOFAB_DELTA_ZZ, HYPOFAB_DELTA_XY, HYPOFAB_DELTA_XZ, HYPOFAB_DELTA_YZ,
+  HYPOFAB_EPS_XX,
+  HYPOFAB_EPS_YY,
+  HYPOFAB_EPS_ZZ,
+  HYPOFAB_EPS_XY,
+  HYPOFAB_EPS_XZ,
+  HYPOFAB_EPS_YZ,
+  HYPOFAB_SIG_XX,
+  HYPOFAB_SIG_YY,
+  HYPOFAB_SIG_ZZ,
+  HYPOFAB_SIG_XY,
+  HYPOFAB_SIG_XZ,
+  HYPOFAB_SIG_YZ,
+  HYPOFAB_DELTA_XX,
+  HYPOFAB_DELTA_YY,
+  HYPOFAB_DELTA_ZZ,
+  HYPOFAB_DELTA_XY,
+  HYPOFAB_DELTA_XZ,
+  HYPOFAB_DELTA_YZ,
   HYPOFAB_VOID_RATIO,
-  HYPOFAB_P,     /**< -tr(T)/3 */
-  HYPOFAB_Q,     /**< sqrt(3/2 s:s) */
-  HYPOFAB_EPS_V, /**< tr eps, since the start of the test */
-  HYPOFAB_EPS_Q, /**< sqrt(2/3 e:e), since the start of the test */
-  HYPOFAB_RHO,   /**< |delta|/R */
+  HYPOFAB_P,       /**< -tr(T)/3 */
+  HYPOFAB_Q,       /**< sqrt(3/2 s:s) */
+  HYPOFAB_EPS_V,   /**< tr eps, since the start of the test */
+  HYPOFAB_EPS_Q,   /**< sqrt(2/3 e:e), since the start of the test */
+  HYPOFAB_RHO,     /**< |delta|/R */
   HYPOFAB_PHI_MOB, /**< mobilised friction angle, asin((s1-s3)/(s1+s3)) [deg] */
   HYPOFAB_N_QUANTITIES
 } hypofab_quantity;
@@ -251,12 +266,12 @@ typedef struct hypofab_step {
   double on_stress[6][6];
   double on_strain[6][6];
   double rate[6];
-  hypofab_mark until;   /**< the step ends when this value is met (found as a root, not overshot) */
-  double max_time;      /**< give up after this time since the step's start; 0: a bound of 100 % strain, or
-                             of 10^4 times the initial p when every condition is on stress */
-  int rows;             /**< rows evenly spaced in the until quantity, from the step's start to its end;
-                             0: use every */
-  hypofab_mark every;   /**< row spacing in a quantity, used when rows is 0 (value > 0) */
+  hypofab_mark until; /**< the step ends when this value is met (found as a root, not overshot) */
+  double max_time;    /**< give up after this time since the step's start; 0: a bound of 100 % strain, or
+                           of 10^4 times the initial p when every condition is on stress */
+  int rows;           /**< rows evenly spaced in the until quantity, from the step's start to its end;
+                           0: use every */
+  hypofab_mark every; /**< row spacing in a quantity, used when rows is 0 (value > 0) */
 } hypofab_step;
 
 /** What a component of a step prescribes. */
@@ -331,7 +346,7 @@ hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_
 typedef struct hypofab_probe {
   double angle;         /**< [deg] axial part cos(angle), lateral parts sin(angle)/sqrt(2) each */
   double stretching[6]; /**< unit strain rate (or the direction of the strain increment) */
-  double response[6];   /**< stress rate; for a finite probe the stress increment over the size of the strain increment */
+  double response[6]; /**< stress rate; for a finite probe the stress increment over the size of the strain increment */
 } hypofab_probe;
 
 /**
@@ -350,14 +365,14 @@ hypofab_status hypofab_envelope(const hypofab_material *material, const hypofab_
 
 /** Contact fabric of a sample (paper 000, Eqs. 1 to 4). */
 typedef struct hypofab_fabric {
-  int64_t contacts;  /**< N_c; 0 when the fabric tensor itself was given */
-  int64_t particles; /**< N_p; 0 when not known */
-  double fabric[6];            /**< N = (1/N_c) sum n n */
-  double deviatoric_fabric[6]; /**< F = 15/2 (N - 1/3 1) */
-  double anisotropy;           /**< a = sqrt(3/2 F:F) */
-  double principal_values[3];  /**< of N, largest first */
-  double principal_directions[3][3]; /**< row i: unit vector of principal_values[i] */
-  double coordination_number;  /**< 2 N_c/N_p; NaN when not known */
+  int64_t contacts;                      /**< N_c; 0 when the fabric tensor itself was given */
+  int64_t particles;                     /**< N_p; 0 when not known */
+  double fabric[6];                      /**< N = (1/N_c) sum n n */
+  double deviatoric_fabric[6];           /**< F = 15/2 (N - 1/3 1) */
+  double anisotropy;                     /**< a = sqrt(3/2 F:F) */
+  double principal_values[3];            /**< of N, largest first */
+  double principal_directions[3][3];     /**< row i: unit vector of principal_values[i] */
+  double coordination_number;            /**< 2 N_c/N_p; NaN when not known */
   double mechanical_coordination_number; /**< (2 N_c - N_1)/(N_p - N_0 - N_1): without particles that have
                                               fewer than two contacts (Thornton 2000); NaN when not known */
 } hypofab_fabric;
@@ -365,8 +380,8 @@ typedef struct hypofab_fabric {
 /** Where the data stand in a contact list. NULL or 0 in a field takes its default. */
 typedef struct hypofab_contact_format {
   const char *id1, *id2, *nx, *ny, *nz; /**< column names, or 1-based column numbers as text; default: these names */
-  char separator;    /**< ',' ';' '\t', or 0: blanks and tabs, or commas when the header has commas */
-  int64_t particles; /**< N_p; 0: the particle file if given, else the number of different ids in the list */
+  char separator;            /**< ',' ';' '\t', or 0: blanks and tabs, or commas when the header has commas */
+  int64_t particles;         /**< N_p; 0: the particle file if given, else the number of different ids in the list */
   const char *particle_file; /**< particle list: one row per particle; column "id" when it has a header */
 } hypofab_contact_format;
 
@@ -394,8 +409,7 @@ typedef struct hypofab_initial_delta {
  * @param R  size of the elastic strain range, > 0
  * @param c  parameter of the weight function, > 0 (0.05 in paper 000)
  */
-hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c,
-                                       hypofab_initial_delta *result);
+hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c, hypofab_initial_delta *result);
 
 /* -------------------------------------------------------------------- deck */
 

@@ -36,9 +36,9 @@ module umat_material
     parameter_type('p_t'//nul, 'stress'//nul, 'shift of stress: the model sees T - p_t 1'//nul, 0.0_wp, big, .false.), &
     parameter_type('h_s'//nul, 'stress'//nul, 'granular hardness'//nul, 1.0e-6_wp, big, .false.), &
     parameter_type('n'//nul, '-'//nul, 'exponent of the compression law'//nul, 0.01_wp, 1.0_wp, .false.), &
-    parameter_type('e_d0'//nul, '-'//nul, 'void ratio of the densest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
+  parameter_type('e_d0'//nul, '-'//nul, 'void ratio of the densest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
     parameter_type('e_c0'//nul, '-'//nul, 'critical void ratio at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
-    parameter_type('e_i0'//nul, '-'//nul, 'void ratio of the loosest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
+  parameter_type('e_i0'//nul, '-'//nul, 'void ratio of the loosest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
     parameter_type('alpha'//nul, '-'//nul, 'exponent of the density factor f_d'//nul, 0.0_wp, 5.0_wp, .false.), &
     parameter_type('beta'//nul, '-'//nul, 'exponent of the density factor f_e'//nul, 0.0_wp, 10.0_wp, .false.), &
     parameter_type('m_R'//nul, '-'//nul, 'stiffness factor at reversal; <= 0.5: no intergranular strain'//nul, &
@@ -115,7 +115,7 @@ contains
       message = disagreement(i_e_c0, i_e_i0, 'e_c0 <= e_i0')
     else if (stiffness_bracket(props) <= 0.0_wp) then
       message = disagreement(i_phi_c, i_alpha, &
-                             '3 + a^2 - a sqrt(3) ((e_i0 - e_d0)/(e_c0 - e_d0))^alpha > 0 (stiffness would be negative)')
+                            '3 + a^2 - a sqrt(3) ((e_i0 - e_d0)/(e_c0 - e_d0))^alpha > 0 (stiffness would be negative)')
     else
       status = status_ok
     end if

@@ -31,7 +31,7 @@ module umat_sands
               [30.0_wp, 0.0_wp, 230.0e3_wp, 0.5_wp, 0.579_wp, &
                0.865_wp, 0.995_wp, 0.13_wp, 2.4_wp, 5.0_wp, 3.0_wp, 1.0e-4_wp, 0.3_wp, 1.0_wp, 0.0_wp, 0.0_wp]), &
     sand_type('hochstetten'//nul, 'Hochstetten sand, calibration of 1996, with intergranular strain'//nul, &
-              'von Wolffersdorff (1996) Mech. Cohes.-Frict. Mater. 1, 251-271; Niemunis and Herle (1997) ibid. 2, 279-299'//nul, &
+    'von Wolffersdorff (1996) Mech. Cohes.-Frict. Mater. 1, 251-271; Niemunis and Herle (1997) ibid. 2, 279-299'//nul, &
               [33.0_wp, 0.0_wp, 1000.0e3_wp, 0.25_wp, 0.55_wp, &
                0.95_wp, 1.05_wp, 0.25_wp, 1.5_wp, 5.0_wp, 2.0_wp, 1.0e-4_wp, 0.5_wp, 6.0_wp, 0.0_wp, 0.0_wp]), &
     sand_type('hochstetten_1999'//nul, 'Hochstetten sand, calibration of 1999'//nul, &

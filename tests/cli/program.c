@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -16,12 +15,6 @@
 #include "deck/scratch.h"
 
 #define MOST_ARGUMENTS 16
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* The child: errors to `descriptor`, or to the file "err" when that is negative. Paths are made before the fork. */
 static pid_t start(const char *const *arguments, int descriptor) {
@@ -54,11 +47,7 @@ program_run program(const char *argument, ...) {
   va_start(list, argument);
   for (int i = 1; i < MOST_ARGUMENTS && arguments[i - 1]; ++i) arguments[i] = va_arg(list, const char *);
   va_end(list);
-  const double begin = now();
-  const pid_t pid = program_start(arguments);
-  program_run run = program_wait(pid);
-  run.seconds = now() - begin;
-  return run;
+  return program_wait(program_start(arguments));
 }
 
 program_run program_on_terminal(const char *const *arguments) {

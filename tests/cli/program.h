@@ -11,7 +11,6 @@
 typedef struct program_run {
   int exit_code; /**< -1: ended by a signal */
   char *out, *err;
-  double seconds; /**< wall clock */
 } program_run;
 
 /** Run `hypofab ARGUMENTS...` (the list ends with NULL) in the scratch folder, both streams into files. */

@@ -76,28 +76,11 @@ static void oedometer_is_that_of_the_opensees_documentation(void **state) {
   table_free(&t);
 }
 
-#ifdef HYPOFAB_OPTIMISED
-static void four_tests_take_less_than_a_tenth_of_a_second(void **state) {
-  (void)state;
-  double least = INFINITY; /* the machine may be busy with something else */
-  for (int i = 0; i < 10; ++i) {
-    program_run run = run_example(EXAMPLE("directional_stiffness.yaml"));
-    least = fmin(least, run.seconds);
-    run_free(&run);
-  }
-  print_message("four tests of 1,000 rows: %.1f ms\n", 1e3 * least);
-  assert_true(least < 0.1);
-}
-#endif
-
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, scratch_make, scratch_remove)
   const struct CMUnitTest tests[] = {
       TEST(directional_stiffness_is_that_of_table_4),
       TEST(oedometer_is_that_of_the_opensees_documentation),
-#ifdef HYPOFAB_OPTIMISED
-      TEST(four_tests_take_less_than_a_tenth_of_a_second),
-#endif
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,5 +56,5 @@ program host
     time = time + 1.0_real64
   end do
   print '(a, f10.4)', "axial stress [kPa]:", stress(3)
-  if (.not. abs(stress(3)/exact_axial_stress - 1.0_real64) <= 1.0e-5_real64) error stop "wrong axial stress"
+  if (.not. abs(stress(3) / exact_axial_stress - 1.0_real64) <= 1.0e-5_real64) error stop "wrong axial stress"
 end program host

@@ -36,12 +36,12 @@ program rate_from_fortran
 
   call require(hypofab_sand("hochstetten"//c_null_char, sand), "hypofab_sand")
   state = state_t(stress=[-100.0_c_double, -80.0_c_double, -90.0_c_double, 5.0_c_double, 0.0_c_double, 0.0_c_double], &
-                  delta=0.0_c_double, void_ratio=0.5_c_double*(sand%e_c0 + sand%e_d0))
+                  delta=0.0_c_double, void_ratio=0.5_c_double * (sand%e_c0 + sand%e_d0))
   call require(hypofab_rate(sand, state, stretching, once, c_null_ptr), "hypofab_rate")
-  call require(hypofab_rate(sand, state, 2.0_c_double*stretching, twice, c_null_ptr), "hypofab_rate")
+  call require(hypofab_rate(sand, state, 2.0_c_double * stretching, twice, c_null_ptr), "hypofab_rate")
   print '(a, 6es12.4)', "stress rate [kPa]:", once%stress
   if (.not. maxval(abs(once%stress)) > 0.0_c_double) error stop "the stress rate vanishes"
-  if (.not. maxval(abs(twice%stress - 2.0_c_double*once%stress)) <= 1.0e-12_c_double*maxval(abs(once%stress))) &
+  if (.not. maxval(abs(twice%stress - 2.0_c_double * once%stress)) <= 1.0e-12_c_double * maxval(abs(once%stress))) &
     error stop "the stress rate is not homogeneous of degree one"
 
 contains

@@ -7,7 +7,7 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,8 @@ static void random_step(random_stream *r, const hypofab_state *state, hypofab_st
   assert_int_equal(hypofab_step_control(step, control, rate), HYPOFAB_OK);
 }
 
-/* What the driver's strain rate gives, when put into hypofab_rate, meets every condition: on random states and steps. */
+/* What the driver's strain rate gives, when put into hypofab_rate, meets every condition: on random states and steps.
+ */
 static void test_conditions_are_met(void **unused) {
   (void)unused;
   random_stream r = {31};
@@ -113,7 +114,8 @@ static void test_peak_under_stress_control(void **unused) {
   }
 }
 
-/* On the limit surface the stress rate of the plain model vanishes for one D: prescribing it leaves no unique answer. */
+/* On the limit surface the stress rate of the plain model vanishes for one D: prescribing it leaves no unique answer.
+ */
 static void test_conditions_that_prescribe_too_little(void **unused) {
   (void)unused;
   hypofab_material material;
@@ -131,8 +133,8 @@ static void test_conditions_that_prescribe_too_little(void **unused) {
 }
 
 /*
- * Two solutions: take one direction d of loading, and a condition along which the two branches answer with opposite sign:
- * between the determinants' zero crossings both strain rates satisfy the same prescription.
+ * Two solutions: take one direction d of loading, and a condition along which the two branches answer with opposite
+ * sign: between the determinants' zero crossings both strain rates satisfy the same prescription.
  */
 static void test_loss_of_uniqueness_is_named(void **unused) {
   (void)unused;
@@ -185,10 +187,8 @@ static void test_loss_of_uniqueness_is_named(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_conditions_are_met),
-      cmocka_unit_test(test_held_stays_held),
-      cmocka_unit_test(test_peak_under_stress_control),
-      cmocka_unit_test(test_conditions_that_prescribe_too_little),
+      cmocka_unit_test(test_conditions_are_met),          cmocka_unit_test(test_held_stays_held),
+      cmocka_unit_test(test_peak_under_stress_control),   cmocka_unit_test(test_conditions_that_prescribe_too_little),
       cmocka_unit_test(test_loss_of_uniqueness_is_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

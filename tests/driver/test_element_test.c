@@ -1,4 +1,5 @@
-/* Element tests: the paper's figures, an independent route, ends and rows where they were asked for, every way to stop. */
+/* Element tests: the paper's figures, an independent route, ends and rows where they were asked for, every way to stop.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +8,7 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,8 +61,7 @@ static void test_agrees_with_many_small_updates(void **unused) {
     if (status) continue;
     compared++;
     assert_true(tensor_distance(outcome.state.stress, updated.stress) < 1e-7 * tensor_norm(updated.stress));
-    if (material.m_R > 0.5)
-      assert_true(tensor_distance(outcome.state.delta, updated.delta) < 1e-7 * material.R);
+    if (material.m_R > 0.5) assert_true(tensor_distance(outcome.state.delta, updated.delta) < 1e-7 * material.R);
     assert_true(fabs(outcome.state.void_ratio / updated.void_ratio - 1.0) < 1e-7);
   }
   assert_true(compared > 20);
@@ -95,9 +95,9 @@ static void test_published_oedometer(void **unused) {
 /* Ends are met as roots: in time, strain, stress and in quantities that no condition prescribes. */
 static void test_ends_are_met(void **unused) {
   (void)unused;
-  const hypofab_mark ends[] = {{HYPOFAB_TIME, 0.37},     {HYPOFAB_EPS_YY, -0.0123}, {HYPOFAB_SIG_YY, -250.0},
-                               {HYPOFAB_Q, 111.0},       {HYPOFAB_P, 150.0},        {HYPOFAB_EPS_V, 0.001},
-                               {HYPOFAB_PHI_MOB, 25.0},  {HYPOFAB_EPS_Q, 0.02},     {HYPOFAB_RHO, 0.5},
+  const hypofab_mark ends[] = {{HYPOFAB_TIME, 0.37},    {HYPOFAB_EPS_YY, -0.0123}, {HYPOFAB_SIG_YY, -250.0},
+                               {HYPOFAB_Q, 111.0},      {HYPOFAB_P, 150.0},        {HYPOFAB_EPS_V, 0.001},
+                               {HYPOFAB_PHI_MOB, 25.0}, {HYPOFAB_EPS_Q, 0.02},     {HYPOFAB_RHO, 0.5},
                                {HYPOFAB_EPS_XX, 0.001}};
   for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
     hypofab_material material;
@@ -269,7 +269,8 @@ static void test_bad_steps_are_refused_before_anything_runs(void **unused) {
   bad[4].rate[2] = INFINITY;
   for (int i = 0; i < 5; i++) {
     steps[1] = bad[i];
-    assert_int_equal(hypofab_test_run(&material, &state, steps, 2, NULL, recorder_take, &r, NULL), HYPOFAB_BAD_ARGUMENT);
+    assert_int_equal(hypofab_test_run(&material, &state, steps, 2, NULL, recorder_take, &r, NULL),
+                     HYPOFAB_BAD_ARGUMENT);
     assert_non_null(strstr(hypofab_last_message(), "step 2"));
     assert_int_equal(r.n, 0);
   }
@@ -277,7 +278,8 @@ static void test_bad_steps_are_refused_before_anything_runs(void **unused) {
   assert_int_equal(hypofab_test_run(&material, &state, steps, 1, NULL, recorder_take, &r, NULL), HYPOFAB_BAD_STATE);
   const hypofab_test_options coarse = {.tolerance = 0.5};
   paper_test(0, &material, &state, steps);
-  assert_int_equal(hypofab_test_run(&material, &state, steps, 1, &coarse, recorder_take, &r, NULL), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_test_run(&material, &state, steps, 1, &coarse, recorder_take, &r, NULL),
+                   HYPOFAB_BAD_ARGUMENT);
 }
 
 int main(void) {

@@ -5,7 +5,7 @@
 #include "hypofab.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,7 +23,8 @@ static hypofab_state start(const hypofab_material *material, double u, double v)
   return state;
 }
 
-/* Where delta:D > 0 and rho = 1 the response is that of the plain model; elsewhere it is larger (paper 000, Figure 1). */
+/* Where delta:D > 0 and rho = 1 the response is that of the plain model; elsewhere it is larger (paper 000, Figure 1).
+ */
 static void test_loading_half_is_the_plain_envelope(void **unused) {
   (void)unused;
   hypofab_material material, plain;

@@ -5,7 +5,7 @@
 #include "hypofab.h"
 #include "recorder.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 #include "hypofab.h"
 #include "recorder.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -37,8 +37,8 @@ static void test_values_follow_their_definitions(void **unused) {
                           3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
     const double eps_q = sqrt(2.0 / 9.0 * (pow(e[0] - e[1], 2) + pow(e[1] - e[2], 2) + pow(e[2] - e[0], 2)) +
                               4.0 / 3.0 * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5]));
-    const double rho = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] +
-                            2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) / material.R;
+    const double rho =
+        sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) / material.R;
     assert_true(fabs(v[HYPOFAB_P] + (s[0] + s[1] + s[2]) / 3.0) < 1e-12 * v[HYPOFAB_P]);
     assert_true(fabs(v[HYPOFAB_Q] - q) < 1e-11 * v[HYPOFAB_P]);
     assert_true(fabs(v[HYPOFAB_EPS_Q] - eps_q) < 1e-14);

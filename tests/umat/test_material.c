@@ -4,7 +4,7 @@
 
 #include "hypofab.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +13,8 @@
 
 static void test_names_are_in_the_order_of_props(void **unused) {
   (void)unused;
-  static const char *const names[HYPOFAB_N_PARAMETERS] = {"phi_c", "p_t",  "h_s", "n",   "e_d0", "e_c0",   "e_i0", "alpha",
-                                                          "beta",  "m_R",  "m_T", "R",   "beta_r", "chi", "K_w",  "e_0"};
+  static const char *const names[HYPOFAB_N_PARAMETERS] = {"phi_c", "p_t", "h_s", "n", "e_d0",   "e_c0", "e_i0", "alpha",
+                                                          "beta",  "m_R", "m_T", "R", "beta_r", "chi",  "K_w",  "e_0"};
   hypofab_parameter_info info;
   for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) {
     assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);

@@ -7,7 +7,7 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -125,7 +125,7 @@ static void test_linear_parts_reproduce_the_rate(void **unused) {
     assert_int_equal(hypofab_linear_parts(&material, &state, reversal, jump, direction, &model), HYPOFAB_OK);
     double along = tensor_dot(direction, stretching);
     double factor = model == HYPOFAB_PLAIN ? tensor_norm(stretching) : fmax(along, 0.0);
-    assert_int_equal(taken, model == HYPOFAB_PLAIN                            ? HYPOFAB_PLAIN
+    assert_int_equal(taken, model == HYPOFAB_PLAIN                           ? HYPOFAB_PLAIN
                             : along > 0.0 || tensor_norm(state.delta) == 0.0 ? HYPOFAB_LOADING
                                                                              : HYPOFAB_REVERSAL);
     for (int k = 0; k < 6; k++) {
@@ -177,8 +177,12 @@ static void test_outside_the_domain(void **unused) {
   hypofab_material material;
   assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
   const double stretching[6] = {-1, 0, 0, 0, 0, 0};
-  const double stresses[][6] = {{0}, {100, 100, 100, 0, 0, 0}, {-100, -100, 1, 0, 0, 0}, {-10, -10, -10, 20, 0, 0},
-                                {-100, NAN, -100, 0, 0, 0}, {-INFINITY, -100, -100, 0, 0, 0}};
+  const double stresses[][6] = {{0},
+                                {100, 100, 100, 0, 0, 0},
+                                {-100, -100, 1, 0, 0, 0},
+                                {-10, -10, -10, 20, 0, 0},
+                                {-100, NAN, -100, 0, 0, 0},
+                                {-INFINITY, -100, -100, 0, 0, 0}};
   for (size_t i = 0; i < sizeof stresses / sizeof *stresses; i++) {
     hypofab_state state = {{0}, {0}, 0.7}, rate, before;
     memcpy(state.stress, stresses[i], sizeof state.stress);

@@ -6,7 +6,7 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -232,10 +232,14 @@ static void test_published_oedometer(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_three_dimensions),     cmocka_unit_test(test_plane_strain),
-      cmocka_unit_test(test_order_of_shear_does_not_matter), cmocka_unit_test(test_pore_water),
-      cmocka_unit_test(test_rotation),             cmocka_unit_test(test_initial_void_ratio),
-      cmocka_unit_test(test_requests_a_smaller_step), cmocka_unit_test(test_published_oedometer),
+      cmocka_unit_test(test_three_dimensions),
+      cmocka_unit_test(test_plane_strain),
+      cmocka_unit_test(test_order_of_shear_does_not_matter),
+      cmocka_unit_test(test_pore_water),
+      cmocka_unit_test(test_rotation),
+      cmocka_unit_test(test_initial_void_ratio),
+      cmocka_unit_test(test_requests_a_smaller_step),
+      cmocka_unit_test(test_published_oedometer),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

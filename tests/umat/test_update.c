@@ -7,7 +7,7 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,8 +15,8 @@
 /* clang-format on */
 
 /*
- * delta after a leg, by the classical Runge-Kutta method with very many steps of the scalar form of its evolution in the
- * plane of delta and the strain: independent of the library and of the reference file.
+ * delta after a leg, by the classical Runge-Kutta method with very many steps of the scalar form of its evolution in
+ * the plane of delta and the strain: independent of the library and of the reference file.
  */
 static void integrate_delta(const hypofab_material *material, const double start[6], const double strain[6],
                             double end[6]) {

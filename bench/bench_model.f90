@@ -1,0 +1,167 @@
+!> Cost of one rate, and of one UMAT call over increments of several sizes, in ns and in rates.
+!>
+!> Random states of three sands: stress up to a mobilised friction near the critical one, delta zero, partial or fully
+!> mobilised, random directions of strain. Medians over the states. Also the error of the stress, against the same update
+!> at a tight tolerance.
+program bench_model
+  use, intrinsic :: iso_fortran_env, only: int64, real64
+  use umat_kinds, only: wp
+  use umat_material, only: material_type, material_from_props
+  use umat_rate, only: state_type, state_rate
+  use umat_sands, only: sands, find_sand
+  use umat_status, only: status_ok
+  use umat_tensor, only: norm, deviator
+  use umat_update, only: options_type, report_type, update_state
+  implicit none
+
+  integer, parameter :: n_states = 1000, n_sizes = 6
+  real(wp), parameter :: sizes(n_sizes) = [1.0e-6_wp, 1.0e-5_wp, 1.0e-4_wp, 1.0e-3_wp, 3.0e-3_wp, 1.0e-2_wp]
+  character(len=16), parameter :: names(3) = [character(len=16) :: 'paper000', 'hochstetten', 'karlsruhe_fine']
+  type(material_type) :: materials(n_states)
+  type(state_type) :: states(n_states)
+  real(wp) :: props(16, n_states), directions(6, n_states), rate_cost
+  integer :: i
+
+  call make_states()
+  call time_rates(rate_cost)
+  write (*, '(a, f0.1, a)') 'one rate: ', rate_cost, ' ns'
+  write (*, '(a)') ''
+  write (*, '(a)') '             UMAT call                       update without tangent      stress error (relative)'
+ write (*, '(a)') '|strain|   median ns   in rates  evaluations    median ns   in rates      median      worst   failed'
+  do i = 1, n_sizes
+    call time_updates(sizes(i))
+  end do
+
+contains
+
+  !> Fill materials, states and directions, the same in every run.
+  subroutine make_states()
+    real(wp) :: u(16), p, s(6)
+    integer :: k, j, n_seed
+    integer, allocatable :: seed(:)
+    call random_seed(size=n_seed)
+    allocate (seed(n_seed), source=42)
+    call random_seed(put=seed)
+    do k = 1, n_states
+      call random_number(u)
+      j = find_sand(trim(names(1 + int(3.0_wp * u(1)))))
+      props(:, k) = sands(j)%props
+      materials(k) = material_from_props(props(:, k))
+      p = exp(log(10.0_wp) + u(2) * log(50.0_wp))
+      s = deviator(u(3:8) - 0.5_wp)
+      states(k)%stress = -p*[1, 1, 1, 0, 0, 0] + 0.7_wp * u(9) * p * s / norm(s)
+      associate (m => materials(k))
+        states(k)%void_ratio = (m%e_d0 + u(10) * (m%e_c0 - m%e_d0)) * exp(-(3.0_wp * p / m%h_s)**m%n) * 1.001_wp
+        call random_number(s)
+        s = s - 0.5_wp
+        states(k)%delta = m%R * 0.999999_wp * s / norm(s)
+      end associate
+      if (u(11) < 0.2_wp) states(k)%delta = 0.0_wp
+      if (u(11) > 0.6_wp) states(k)%delta = u(12) * states(k)%delta
+      call random_number(s)
+      s = s - 0.5_wp
+      directions(:, k) = s / norm(s)
+    end do
+  end subroutine make_states
+
+  !> Mean cost of a rate [ns].
+  subroutine time_rates(cost)
+    real(wp), intent(out) :: cost
+    integer, parameter :: n_repeats = 200
+    type(state_type) :: rate
+    real(wp) :: sink
+    integer(int64) :: start, finish, ticks
+    integer :: k, j, branch, status
+    sink = 0.0_wp
+    call system_clock(start, ticks)
+    do j = 1, n_repeats
+      do k = 1, n_states
+        call state_rate(materials(k), states(k), directions(:, k), rate, branch, status)
+        sink = sink + rate%stress(1)
+      end do
+    end do
+    call system_clock(finish)
+    cost = 1.0e9_wp * real(finish - start, wp) / real(ticks, wp) / (n_repeats * n_states)
+    if (abs(sink) > huge(sink)) write (*, *) sink ! keeps the loop
+  end subroutine time_rates
+
+  !> One line: increments of a size.
+  subroutine time_updates(size)
+    real(wp), intent(in) :: size
+    integer, parameter :: n_repeats = 7
+    real(wp) :: call_time(n_states), update_time(n_states), error(n_states), best, evaluations
+    real(real64) :: stress(6), statev(13), ddsdde(6, 6), dstran(6), pnewdt
+    type(state_type) :: state, exact
+    type(report_type) :: report
+    integer(int64) :: start, finish, ticks
+    integer :: k, j, status, failed
+    error = 0.0_wp
+    evaluations = 0.0_wp
+    failed = 0
+    do k = 1, n_states
+      dstran = size * directions(:, k)*[1, 1, 1, 2, 2, 2]
+      best = huge(best)
+      do j = 1, n_repeats
+        stress = states(k)%stress
+        statev = 0.0_real64
+        statev(1:6) = states(k)%delta*[1, 1, 1, 2, 2, 2]
+        statev(7) = states(k)%void_ratio
+        pnewdt = 1.0_real64
+        call system_clock(start, ticks)
+        call call_umat(stress, statev, ddsdde, dstran, props(:, k), pnewdt)
+        call system_clock(finish)
+        best = min(best, 1.0e9_wp * real(finish - start, wp) / real(ticks, wp))
+      end do
+      call_time(k) = best
+      evaluations = evaluations + statev(10) / n_states
+      best = huge(best)
+      do j = 1, n_repeats
+        state = states(k)
+        call system_clock(start)
+        call update_state(materials(k), options_type(), state, size * directions(:, k), report, status)
+        call system_clock(finish)
+        best = min(best, 1.0e9_wp * real(finish - start, wp) / real(ticks, wp))
+      end do
+      update_time(k) = best
+      exact = states(k)
+      if (status == status_ok) &
+     call update_state(materials(k), options_type(tolerance=1.0e-11_wp), exact, size * directions(:, k), report, status)
+      if (status == status_ok) then
+        error(k) = norm(state%stress - exact%stress) / norm(exact%stress)
+      else
+        failed = failed + 1
+      end if
+    end do
+    write (*, '(es8.1, f12.0, f11.1, f13.1, f13.0, f11.1, 2es12.1, i9)') size, median(call_time), &
+      median(call_time) / rate_cost, evaluations, median(update_time), median(update_time) / rate_cost, median(error), &
+      maxval(error), failed
+  end subroutine time_updates
+
+  !> The entry as a host with PNEWDT and without the rest calls it.
+  subroutine call_umat(stress, statev, ddsdde, dstran, props, pnewdt)
+    use umat_entry, only: umat
+    real(real64), intent(inout) :: stress(6), statev(13), ddsdde(6, 6), pnewdt
+    real(real64), intent(in) :: dstran(6), props(16)
+    call umat(stress, statev, ddsdde, dstran=dstran, ndi=3, nshr=3, ntens=6, nstatv=13, props=props, nprops=16, &
+              pnewdt=pnewdt)
+  end subroutine call_umat
+
+  !> Median, by sorting a copy.
+  pure function median(values) result(middle)
+    real(wp), intent(in) :: values(:)
+    real(wp) :: middle
+    real(wp) :: sorted(size(values)), held
+    integer :: a, b
+    sorted = values
+    do a = 2, size(sorted)
+      held = sorted(a)
+      do b = a - 1, 1, -1
+        if (sorted(b) <= held) exit
+        sorted(b + 1) = sorted(b)
+      end do
+      sorted(b + 1) = held
+    end do
+    middle = sorted((size(sorted) + 1) / 2)
+  end function median
+
+end program bench_model
