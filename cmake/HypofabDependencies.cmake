@@ -1,8 +1,8 @@
 # Everything libhypofab links, in one interface library. libhypofab_umat links none of it.
 find_package(PkgConfig REQUIRED)
 find_package(SUNDIALS 6 REQUIRED CONFIG COMPONENTS arkode nvecserial) # element tests
-find_package(LAPACK REQUIRED) # mixed control, principal values
-find_package(GSL REQUIRED) # quadratic of the plain model's control
+find_package(LAPACK REQUIRED) # principal values of fabric tensors
+find_package(GSL REQUIRED) # mixed control, roots of events
 find_package(ZLIB REQUIRED) # contact lists compressed by gzip
 pkg_check_modules(CYAML REQUIRED IMPORTED_TARGET libcyaml) # decks
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson) # JSON results
