@@ -19,7 +19,8 @@ module umat_generic
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors
   implicit none
   private
-  public :: tridimensional, plane_strain, axisymmetrical, generalised_plane_strain, axisymmetrical_generalised_plane_strain
+  public :: tridimensional, plane_strain, axisymmetrical, generalised_plane_strain
+  public :: axisymmetrical_generalised_plane_strain
 
   !> The state of a point at the start or the end of a step; pointers that a behaviour does not need may be null.
   type, bind(C), public :: state_view
@@ -124,8 +125,8 @@ contains
 
     outcome = failure
     call check_props(real(props, wp), status, message)
-    if (status == status_ok .and. .not. (all(ieee_is_finite(start_strain)) .and. all(ieee_is_finite(end_strain)) .and. &
-                                         all(ieee_is_finite(start_stress)) .and. all(ieee_is_finite(start_variables)))) then
+    if (status == status_ok .and. .not. all([ieee_is_finite(start_strain), ieee_is_finite(end_strain), &
+                                             ieee_is_finite(start_stress), ieee_is_finite(start_variables)])) then
       status = status_bad_argument
       message = 'strain, stress or state variables are not finite'
     end if

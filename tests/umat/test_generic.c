@@ -8,11 +8,11 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
-#include <cmocka.h>
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <cmocka.h>
 /* clang-format on */
 
 enum { SCALARS = 7, MAX_VARIABLES = 6 + SCALARS };
