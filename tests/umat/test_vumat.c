@@ -7,11 +7,11 @@
 #include "support/states.h"
 #include "support/tensors.h"
 
-/* clang-format off: cmocka needs these first */
-#include <cmocka.h>
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <cmocka.h>
 /* clang-format on */
 
 extern void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
