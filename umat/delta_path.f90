@@ -10,14 +10,21 @@
 !>   plane  sinh(x) = cot(theta):        rho = (1 + kappa sech^beta_r(x))^(-1/beta_r), dlambda/dx = R rho
 !>   axis   theta = 0, exp(-x) = 1 - rho^beta_r:                      dlambda/dx = R rho^(1-beta_r)/beta_r
 !> In a reversal delta grows along d, and x is lambda itself; so it is where delta stays as it is.
+!>
+!> The derivative of delta at a fixed fraction of the increment with respect to the increment is known in closed form too
+!> (theory.md, section 4); it enters the consistent tangent.
 module umat_delta_path
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: branch_plain, branch_loading
-  use umat_tensor, only: ddot, norm
+  use umat_tensor, only: ddot, norm, multiplicity
   implicit none
   private
-  public :: delta_path_type, delta_path, delta_at, speed_at
+  public :: delta_path_type, delta_path, path_point_type, path_point, speed_at, measures_length, kappa_slope
+  public :: delta_influence
+
+  !> Below this v, Eq. (20) cancels more digits than the limit v = 0 leaves out.
+  real(wp), parameter :: on_axis = sqrt(epsilon(1.0_wp))
 
   integer, parameter :: kind_fixed = 0, kind_straight = 1, kind_axis = 2, kind_plane = 3
 
@@ -28,9 +35,22 @@ module umat_delta_path
     real(wp) :: along(6) !< unit strain direction d
     real(wp) :: across(6) !< fixed: delta; straight: delta at x = 0; plane: unit direction of the part of delta normal to d
     real(wp) :: kappa !< first integral of the plane path
+    real(wp) :: u !< delta:d/R at the start of the increment, below zero when a reversal came first
+    real(wp) :: v !< size of the part of delta/R normal to d at the start
+    real(wp) :: turn !< length of the reversal that came first [strain]
     real(wp) :: R
     real(wp) :: beta_r
   end type delta_path_type
+
+  !> A point of a path. Where the parameter is the length itself, only delta has a meaning.
+  type :: path_point_type
+    real(wp) :: delta(6)
+    real(wp) :: speed = 1.0_wp !< d lambda/dx [strain]
+    real(wp) :: rho = 0.0_wp
+    real(wp) :: rho_beta = 0.0_wp !< rho^beta_r
+    real(wp) :: cosine = 0.0_wp, sine = 0.0_wp !< of the angle between delta and d
+    real(wp) :: sine_beta = 0.0_wp !< sine^beta_r
+  end type path_point_type
 
 contains
 
@@ -39,16 +59,17 @@ contains
   !> @param delta     intergranular strain at the start, |delta| <= R up to rounding
   !> @param direction unit strain direction d
   !> @param branch    the branch that the whole path is on
-  pure function delta_path(m, delta, direction, branch) result(path)
+  !> @param turn      length of strain already done in reversal [strain]
+  pure function delta_path(m, delta, direction, branch, turn) result(path)
     type(material_type), intent(in) :: m
-    real(wp), intent(in) :: delta(6), direction(6)
+    real(wp), intent(in) :: delta(6), direction(6), turn
     integer, intent(in) :: branch
     type(delta_path_type) :: path
     real(wp) :: u, v, rho_beta, normal(6)
     ! |v| only decays: what is below rounding now stays there.
     real(wp), parameter :: negligible = 10.0_wp * epsilon(1.0_wp)
 
-    path = delta_path_type(kind_fixed, 0.0_wp, direction, delta, 0.0_wp, m%R, m%beta_r)
+    path = delta_path_type(kind_fixed, 0.0_wp, direction, delta, 0.0_wp, 0.0_wp, 0.0_wp, turn, m%R, m%beta_r)
     if (branch == branch_plain) return
     if (branch /= branch_loading) then
       path%kind = kind_straight
@@ -57,6 +78,8 @@ contains
     u = max(0.0_wp, ddot(delta, direction)) / m%R
     normal = delta / m%R - u * direction
     v = norm(normal)
+    path%u = u - turn / m%R
+    path%v = v
     rho_beta = min(1.0_wp, hypot(u, v))**m%beta_r
     if (v > negligible) then
       path%kind = kind_plane
@@ -69,62 +92,151 @@ contains
     end if
   end function delta_path
 
-  !> delta at a parameter x.
-  pure function delta_at(path, x) result(delta)
+  !> The point of a path at a parameter x.
+  pure function path_point(path, x) result(point)
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x
-    real(wp) :: delta(6)
+    type(path_point_type) :: point
     real(wp) :: decay
+
+    point = path_point_type(delta=path%across)
     select case (path%kind)
     case (kind_straight)
-      delta = path%across + x * path%along
+      point%delta = path%across + x * path%along
     case (kind_axis)
-      delta = path%R * rho_on_axis(path, x) * path%along
+      decay = exp(-x)
+      point%rho_beta = max(0.0_wp, 1.0_wp - decay)
+      point%rho = point%rho_beta**(1.0_wp / path%beta_r)
+      point%delta = path%R * point%rho * path%along
+      point%speed = 0.0_wp
+      if (point%rho_beta > 0.0_wp) point%speed = path%R * point%rho / (point%rho_beta * path%beta_r)
     case (kind_plane)
-      decay = exp(-2.0_wp * x)
-      delta = path%R * rho_in_plane(path, x) * &
-              ((1.0_wp - decay) / (1.0_wp + decay) * path%along + sech(x) * path%across)
-    case default
-      delta = path%across
+      decay = exp(-x)
+      point%cosine = (1.0_wp - decay**2) / (1.0_wp + decay**2)
+      point%sine = 2.0_wp * decay / (1.0_wp + decay**2)
+      point%sine_beta = point%sine**path%beta_r
+      point%rho_beta = 1.0_wp / (1.0_wp + path%kappa * point%sine_beta)
+      point%rho = point%rho_beta**(1.0_wp / path%beta_r)
+      point%delta = path%R * point%rho * (point%cosine * path%along + point%sine * path%across)
+      point%speed = path%R * point%rho
     end select
-  end function delta_at
+  end function path_point
 
-  !> dlambda/dx at a parameter x [strain].
+  !> d lambda/dx at a parameter x [strain].
   pure function speed_at(path, x) result(speed)
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x
     real(wp) :: speed
+    real(wp) :: decay
+    type(path_point_type) :: point
     select case (path%kind)
     case (kind_axis)
-      speed = path%R * rho_on_axis(path, x)**(1.0_wp - path%beta_r) / path%beta_r
+      point = path_point(path, x)
+      speed = point%speed
     case (kind_plane)
-      speed = path%R * rho_in_plane(path, x)
+      decay = exp(-x)
+      speed = path%R * (1.0_wp + path%kappa * (2.0_wp * decay / (1.0_wp + decay**2))**path%beta_r)**(-1.0_wp / path%beta_r)
     case default
       speed = 1.0_wp
     end select
   end function speed_at
 
-  !> rho along the strain direction.
-  pure function rho_on_axis(path, x) result(rho)
+  !> Is the parameter the length of strain itself?
+  pure function measures_length(path) result(yes)
+    type(delta_path_type), intent(in) :: path
+    logical :: yes
+    yes = path%kind == kind_fixed .or. path%kind == kind_straight
+  end function measures_length
+
+  !> d rho/d kappa at a point; zero off the plane paths.
+  pure function kappa_slope(path, point) result(slope)
+    type(delta_path_type), intent(in) :: path
+    type(path_point_type), intent(in) :: point
+    real(wp) :: slope
+    slope = -point%rho * point%rho_beta * point%sine_beta / path%beta_r
+  end function kappa_slope
+
+  !> Influence of the strain increment on delta, at a fixed fraction of the increment.
+  !>
+  !> With the increment L d, the derivative of delta with respect to eta where the increment is L (d + eta); theory.md
+  !> Eqs. (18) to (20).
+  !> @param path     not of the plain model
+  !> @param x, point parameter and point
+  !> @param done     length of strain done since the start of the increment, a reversal that came first included
+  !> @param rate     d delta/d lambda there
+  !> @param integral of kappa_slope over x, from the path's start
+  !> @return (component of eta, component of delta) [strain]
+  pure function delta_influence(path, x, point, done, rate, integral) result(influence)
+    type(delta_path_type), intent(in) :: path
+    real(wp), intent(in) :: x, done, rate(6), integral
+    type(path_point_type), intent(in) :: point
+    real(wp) :: influence(6, 6)
+    real(wp) :: normal_share, in_plane(6), along(6), across(6), on_along(6)
+    integer :: i
+
+    normal_share = done
+    if (path%kind /= kind_straight) normal_share = influence_normal(path, x, point)
+    along = multiplicity * path%along
+    on_along = 0.0_wp
+    if (path%kind /= kind_straight) on_along = done * rate - normal_share * path%along
+    if (path%kind == kind_plane .and. path%v >= on_axis) then
+      across = multiplicity * path%across
+      in_plane = influence_in_plane(path, point, integral) - normal_share * path%across
+      do i = 1, 6
+        influence(:, i) = on_along(i) * along + in_plane(i) * across
+      end do
+    else
+      do i = 1, 6
+        influence(:, i) = on_along(i) * along
+      end do
+    end if
+    do i = 1, 6
+      influence(i, i) = influence(i, i) + normal_share
+    end do
+  end function delta_influence
+
+  !> Factor of eta normal to the plane of the path; theory.md Eq. (19) [strain].
+  pure function influence_normal(path, x, point) result(factor)
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x
-    real(wp) :: rho
-    rho = max(0.0_wp, 1.0_wp - exp(-x))**(1.0_wp / path%beta_r)
-  end function rho_on_axis
+    type(path_point_type), intent(in) :: point
+    real(wp) :: factor
+    real(wp) :: u, v_over_start
+    select case (path%kind)
+    case (kind_axis)
+      u = point%rho
+      v_over_start = exp(-(x - path%start) / path%beta_r)
+    case (kind_plane)
+      u = point%rho * point%cosine
+      v_over_start = point%rho * point%sine / path%v
+    case default
+      u = path%u
+      v_over_start = exp(-x / path%R)
+    end select
+    factor = path%R * (u - path%u * v_over_start)
+  end function influence_normal
 
-  !> rho off the strain direction.
-  pure function rho_in_plane(path, x) result(rho)
+  !> Answer of delta to eta along the unit normal part of delta; theory.md Eq. (20) [strain].
+  pure function influence_in_plane(path, point, integral) result(answer)
     type(delta_path_type), intent(in) :: path
-    real(wp), intent(in) :: x
-    real(wp) :: rho
-    rho = (1.0_wp + path%kappa * sech(x)**path%beta_r)**(-1.0_wp / path%beta_r)
-  end function rho_in_plane
-
-  !> 1/cosh(x) for x >= 0, without overflow.
-  pure function sech(x)
-    real(wp), intent(in) :: x
-    real(wp) :: sech
-    sech = 2.0_wp * exp(-x) / (1.0_wp + exp(-2.0_wp * x))
-  end function sech
+    type(path_point_type), intent(in) :: point
+    real(wp), intent(in) :: integral
+    real(wp) :: answer(6)
+    real(wp) :: base, kappa_change, x_change, rho_change
+    if (path%turn > 0.0_wp) then
+      base = path%v
+      kappa_change = path%beta_r * (path%kappa + 1.0_wp) * path%u / path%v
+    else
+      base = (path%u**2 + path%v**2) / path%v
+      kappa_change = path%beta_r * path%kappa * path%u / path%v
+    end if
+    associate (rho => point%rho, cosine => point%cosine, sine => point%sine)
+      x_change = (base - kappa_change * integral) / rho
+      rho_change = path%kappa * point%sine_beta * cosine * rho * point%rho_beta * x_change + &
+                   kappa_slope(path, point) * kappa_change
+      answer = path%R * ((rho_change * cosine + rho * x_change * sine**2 - rho * sine) * path%along + &
+                         (rho_change * sine - rho * x_change * sine * cosine + rho * cosine) * path%across)
+    end associate
+  end function influence_in_plane
 
 end module umat_delta_path

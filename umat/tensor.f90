@@ -7,7 +7,7 @@ module umat_tensor
   use umat_kinds, only: wp
   implicit none
   private
-  public :: ddot, norm, trace, deviator, trace_of_cube, is_negative_definite, rotate, principal_values
+  public :: ddot, norm, trace, deviator, trace_of_cube, squared, is_negative_definite, rotate, principal_values
   public :: friction_angle
 
   !> The unit tensor.
@@ -59,6 +59,15 @@ contains
     real(wp) :: s
     s = 3.0_wp * determinant(d)
   end function trace_of_cube
+
+  !> a a, the single contraction.
+  pure function squared(a) result(b)
+    real(wp), intent(in) :: a(6)
+    real(wp) :: b(6)
+    b = [a(1) * a(1) + a(4) * a(4) + a(5) * a(5), a(4) * a(4) + a(2) * a(2) + a(6) * a(6), &
+         a(5) * a(5) + a(6) * a(6) + a(3) * a(3), a(1) * a(4) + a(4) * a(2) + a(5) * a(6), &
+         a(1) * a(5) + a(4) * a(6) + a(5) * a(3), a(4) * a(5) + a(2) * a(6) + a(6) * a(3)]
+  end function squared
 
   !> Determinant.
   pure function determinant(a) result(s)

@@ -4,15 +4,21 @@
 !> integrate is the stress, and the length of the strain path where delta_path uses another parameter. The pair of
 !> Dormand and Prince, 5(4), does it. The branch of the intergranular strain changes once at most, from reversal to loading,
 !> at a place known in closed form, and no step crosses it.
+!>
+!> The consistent tangent is integrated along with the stress: the variational equations of the same path, for the six
+!> components of the increment, with analytic derivatives (variation.f90).
 module umat_update
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use umat_delta_path, only: delta_path_type, delta_path, delta_at, speed_at
+  use umat_delta_path, only: delta_path_type, delta_path, path_point_type, path_point, speed_at, measures_length, &
+                             kappa_slope, delta_influence
+  use umat_intergranular, only: intergranular_direction, delta_rate
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_rate, only: state_type, rate_of_stress, choose_branch, continuum_stiffness
   use umat_status, only: status_ok, status_out_of_domain, status_step_limit, status_bad_state, status_bad_argument, &
                          branch_plain, branch_loading, branch_reversal
-  use umat_tensor, only: ddot, norm, trace
+  use umat_tensor, only: ddot, norm, trace, unit_tensor, multiplicity
+  use umat_variation, only: variation_type, vary_rate_of_stress
   use umat_wolffersdorff, only: in_domain
   implicit none
   private
@@ -41,6 +47,12 @@ module umat_update
   !> Part of the tolerance that one substep may use: errors of many substeps and of later increments add up.
   real(wp), parameter :: share = 0.1_wp
 
+  !> What is integrated: stress, length of strain done; with the tangent also the integral that delta_influence needs, and
+  !> the influence of the increment on stress, (component of eta, component of stress).
+  integer, parameter :: n_stress = 7, i_length = 7, i_integral = 8, n_tangent = 44
+  !> An increment shorter than this has the stiffness of its branch as its tangent, to rounding.
+  real(wp), parameter :: shortest_tangent = 1.0e-14_wp
+
   !> Dormand and Prince (1980), Table 2: nodes, weights of the stages, of the step and of its error.
   integer, parameter :: n_stages = 7
   real(wp), parameter :: c(n_stages) = [0.0_wp, 1.0_wp / 5.0_wp, 3.0_wp / 10.0_wp, 4.0_wp / 5.0_wp, 8.0_wp / 9.0_wp, &
@@ -68,7 +80,9 @@ contains
   !> @param report  filled, also on failure
   !> @param status  status_ok; status_bad_state or status_bad_argument for input that is not finite or outside the
   !>                model's domain; status_out_of_domain when the path leaves it; status_step_limit
-  !> @param tangent continuum stiffness at the end, matrix on tensor components [stress]
+  !> @param tangent d stress/d strain increment, the derivative of the integrated stress; for a vanishing increment the
+  !>                continuum stiffness of a reversal, or L without intergranular strain. Matrix on tensor components
+  !>                [stress]
   pure subroutine update_state(m, options, state, strain, report, status, tangent)
     type(material_type), intent(in) :: m
     type(options_type), intent(in) :: options
@@ -79,29 +93,35 @@ contains
     real(wp), intent(out), optional :: tangent(6, 6)
     type(state_type) :: work
     real(wp) :: direction(6), length, turn
+    real(wp) :: influence(6, 6) !< of eta on stress, the increment being length (direction + eta)
+    integer :: n
 
     call check_input(m, state, strain, status)
     if (status /= status_ok) return
     work = state
     length = norm(strain)
+    influence = 0.0_wp
+    n = merge(n_tangent, n_stress, present(tangent))
+    if (length < shortest_tangent) n = n_stress
     report%branch = choose_branch(m, work%delta, strain)
     if (length > 0.0_wp) then
       direction = strain / length
+      turn = 0.0_wp
       if (report%branch == branch_reversal) then
         ! delta + turn direction is normal to the direction of strain.
         turn = -ddot(work%delta, direction)
-        call integrate(m, options, branch_reversal, direction, min(turn, length), work, report, status)
+        call integrate(m, options, branch_reversal, direction, 0.0_wp, min(turn, length), n, work, influence, report, status)
         if (status /= status_ok) return
-        if (turn < length) then
-          report%branch = branch_loading
-          call integrate(m, options, branch_loading, direction, length - turn, work, report, status)
-        end if
-      else
-        call integrate(m, options, report%branch, direction, length, work, report, status)
+        if (turn < length) report%branch = branch_loading
       end if
-      if (status /= status_ok) return
+      if (report%branch /= branch_reversal) then
+        call integrate(m, options, report%branch, direction, turn, length - turn, n, work, influence, report, status)
+        if (status /= status_ok) return
+      end if
     end if
-    if (present(tangent)) then
+    if (n == n_tangent) then
+      tangent = transpose(influence) / length
+    else if (present(tangent)) then
       call continuum_stiffness(m, work, strain, tangent, status)
       if (status /= status_ok) return
     end if
@@ -128,39 +148,47 @@ contains
   !> Integrate over a length of strain on one branch.
   !> @param branch    the branch to stay on
   !> @param direction unit strain direction
+  !> @param turn      length of strain already done in reversal
   !> @param length    length of the strain path
+  !> @param n         n_stress, or n_tangent to carry the influence too
   !> @param state     in: start, out: end; undefined on failure
+  !> @param influence of eta on stress, in: start, out: end
   !> @param report    evaluations are added, the suggested substep is updated
-  pure subroutine integrate(m, options, branch, direction, length, state, report, status)
+  pure subroutine integrate(m, options, branch, direction, turn, length, n, state, influence, report, status)
     type(material_type), intent(in) :: m
     type(options_type), intent(in) :: options
-    integer, intent(in) :: branch
-    real(wp), intent(in) :: direction(6), length
+    integer, intent(in) :: branch, n
+    real(wp), intent(in) :: direction(6), turn, length
     type(state_type), intent(inout) :: state
+    real(wp), intent(inout) :: influence(6, 6)
     type(report_type), intent(inout) :: report
     integer, intent(out) :: status
     type(delta_path_type) :: path
-    real(wp) :: y(7), y_new(7), k(7, n_stages), x, h, error
+    type(path_point_type) :: point
+    real(wp) :: y(n), y_new(n), k(n, n_stages), x, h, error
     integer :: obstacle !< why the end cannot be reached, if it cannot
     logical :: last
 
     status = status_ok
     if (.not. length > 0.0_wp) return
-    path = delta_path(m, state%delta, direction, branch)
+    path = delta_path(m, state%delta, direction, branch, turn)
     x = path%start
-    y = [state%stress, 0.0_wp] ! stress and the length of strain done
+    y = 0.0_wp
+    y(1:6) = state%stress
+    if (n == n_tangent) y(i_integral + 1:) = reshape(influence, [36])
     call evaluate(x, y, k(:, 1), status)
     report%evaluations = report%evaluations + 1
     if (status /= status_ok) return
     h = first_substep(m, options, path, length)
     obstacle = status_step_limit
     do
-      last = y(7) + length_of_step(path, x, h) >= length
-      if (last) h = step_to_length(path, x, h, length - y(7))
+      call shorten_to_length(path, x, length - y(i_length), h, last)
       call step(x, y, k, h, y_new, status)
       report%evaluations = report%evaluations + n_stages - 1
       if (status == status_ok) then
-        error = relative_error(m, y, y_new, h * matmul(k, error_weight)) / (share * options%tolerance)
+        error = relative_error(m, y, y_new, h * matmul(k(:n_stress, :), error_weight)) / (share * options%tolerance)
+        if (n == n_tangent) error = max(error, influence_error(y_new, k(:, n_stages), length, h * matmul(k, error_weight)) &
+                                        / options%tolerance)
       else
         error = huge(error)
         obstacle = status
@@ -185,43 +213,79 @@ contains
       h = h * factor(error)
     end do
     report%substep = h * factor(error) * speed_at(path, x)
-    state = state_type(y(1:6), delta_at(path, x), void_ratio_at(length))
+    point = path_point(path, x)
+    state = state_type(y(1:6), point%delta, void_ratio_at(length))
+    if (n == n_tangent) influence = reshape(y(i_integral + 1:), [6, 6])
 
   contains
 
     !> One Runge-Kutta step; k(:,1) is given, the others are filled.
     pure subroutine step(x, y, k, h, y_new, status)
-      real(wp), intent(in) :: x, y(7), h
-      real(wp), intent(inout) :: k(7, n_stages)
-      real(wp), intent(out) :: y_new(7)
+      real(wp), intent(in) :: x, y(n), h
+      real(wp), intent(inout) :: k(n, n_stages)
+      real(wp), intent(out) :: y_new(n)
       integer, intent(out) :: status
       y_new = y
-      call evaluate(x + c(2) * h, y + h * matmul(k(:, :1), a2), k(:, 2), status)
+      call evaluate(x + c(2) * h, moved(y, h, k, a2), k(:, 2), status)
       if (status /= status_ok) return
-      call evaluate(x + c(3) * h, y + h * matmul(k(:, :2), a3), k(:, 3), status)
+      call evaluate(x + c(3) * h, moved(y, h, k, a3), k(:, 3), status)
       if (status /= status_ok) return
-      call evaluate(x + c(4) * h, y + h * matmul(k(:, :3), a4), k(:, 4), status)
+      call evaluate(x + c(4) * h, moved(y, h, k, a4), k(:, 4), status)
       if (status /= status_ok) return
-      call evaluate(x + c(5) * h, y + h * matmul(k(:, :4), a5), k(:, 5), status)
+      call evaluate(x + c(5) * h, moved(y, h, k, a5), k(:, 5), status)
       if (status /= status_ok) return
-      call evaluate(x + c(6) * h, y + h * matmul(k(:, :5), a6), k(:, 6), status)
+      call evaluate(x + c(6) * h, moved(y, h, k, a6), k(:, 6), status)
       if (status /= status_ok) return
-      y_new = y + h * matmul(k(:, :6), b)
+      y_new = moved(y, h, k, b)
       call evaluate(x + h, y_new, k(:, 7), status)
     end subroutine step
 
-    !> Derivatives of stress and length with respect to the parameter of the path.
+    !> y + h (k a), by the leading stages.
+    pure function moved(y, h, k, a) result(there)
+      real(wp), intent(in) :: y(n), h, k(n, n_stages), a(:)
+      real(wp) :: there(n)
+      integer :: j
+      there = y
+      do j = 1, size(a)
+        there = there + (h * a(j)) * k(:, j)
+      end do
+    end function moved
+
+    !> Derivatives of what is integrated with respect to the parameter of the path.
     pure subroutine evaluate(x, y, rate, status)
-      real(wp), intent(in) :: x, y(7)
-      real(wp), intent(out) :: rate(7)
+      real(wp), intent(in) :: x, y(n)
+      real(wp), intent(out) :: rate(n)
       integer, intent(out) :: status
-      call rate_of_stress(m, state_type(y(1:6), delta_at(path, x), void_ratio_at(y(7))), direction, branch, &
-                          rate(1:6), status)
-      rate(7) = 1.0_wp
-      rate = speed_at(path, x) * rate
+      type(path_point_type) :: point
+      type(state_type) :: here
+      type(variation_type) :: v
+      real(wp) :: variation(6, 6)
+      integer :: i
+      point = path_point(path, x)
+      here = state_type(y(1:6), point%delta, void_ratio_at(y(i_length)))
+      if (n == n_tangent) then
+        v%stress = reshape(y(i_integral + 1:), [6, 6])
+        v%delta = 0.0_wp
+        if (m%intergranular) &
+          v%delta = delta_influence(path, x, point, turn + y(i_length), &
+                                    delta_rate(m, intergranular_direction(m, here%delta), direction, branch), y(i_integral))
+        v%void_ratio = (1.0_wp + here%void_ratio) * (turn + y(i_length)) * unit_tensor
+        v%stretching = 0.0_wp
+        do i = 1, 6
+          v%stretching(i, i) = 1.0_wp
+        end do
+        rate(i_integral) = 0.0_wp
+        call vary_rate_of_stress(m, here, direction, branch, v, rate(1:6), variation, status)
+        rate(i_integral + 1:) = reshape(variation, [36])
+      else
+        call rate_of_stress(m, here, direction, branch, rate(1:6), status)
+      end if
+      rate(i_length) = 1.0_wp
+      rate = point%speed * rate
+      if (n == n_tangent) rate(i_integral) = kappa_slope(path, point)
     end subroutine evaluate
 
-    !> Void ratio after a length of strain; theory.md Eq. (15) integrated.
+    !> Void ratio after a length of strain in this part; theory.md Eq. (15) integrated.
     pure function void_ratio_at(done) result(e)
       real(wp), intent(in) :: done
       real(wp) :: e
@@ -242,29 +306,41 @@ contains
     end do
   end function length_of_step
 
-  !> The step of the parameter that covers a length of strain, by Newton's method.
-  !> @param h a step that covers at least this length
-  pure function step_to_length(path, x, h, length) result(step)
+  !> Shorten a step of the parameter to one that covers a length of strain, by Newton's method, if it covers more.
+  !> @param h    step
+  !> @param last does the step cover the length?
+  pure subroutine shorten_to_length(path, x, length, h, last)
     type(delta_path_type), intent(in) :: path
-    real(wp), intent(in) :: x, h, length
-    real(wp) :: step
+    real(wp), intent(in) :: x, length
+    real(wp), intent(inout) :: h
+    logical, intent(out) :: last
     real(wp) :: lower, upper, excess
     integer :: i
+    if (measures_length(path)) then
+      last = h >= length
+      if (last) h = length
+      return
+    end if
+    ! The speed grows along a path, so its value at the end bounds the length covered.
+    last = h * speed_at(path, x + h) >= length
+    if (.not. last) return
+    excess = length_of_step(path, x, h) - length
+    last = excess >= 0.0_wp
+    if (.not. last) return
     lower = 0.0_wp
     upper = h
-    step = h
     do i = 1, 60
-      excess = length_of_step(path, x, step) - length
-      if (abs(excess) <= 4.0_wp * epsilon(length) * length) exit
+      if (abs(excess) <= 1.0e3_wp * epsilon(length) * length) exit
       if (excess > 0.0_wp) then
-        upper = step
+        upper = h
       else
-        lower = step
+        lower = h
       end if
-      step = step - excess / speed_at(path, x + step)
-      if (step <= lower .or. step >= upper) step = 0.5_wp * (lower + upper)
+      h = h - excess / speed_at(path, x + h)
+      if (h <= lower .or. h >= upper) h = 0.5_wp * (lower + upper)
+      excess = length_of_step(path, x, h) - length
     end do
-  end function step_to_length
+  end subroutine shorten_to_length
 
   !> First guess of the substep, as a step of the path's parameter: a part of the range in which delta turns.
   pure function first_substep(m, options, path, length) result(h)
@@ -284,11 +360,33 @@ contains
   !> delta and void ratio. Norms keep it independent of the axes.
   pure function relative_error(m, y, y_new, difference) result(error)
     type(material_type), intent(in) :: m
-    real(wp), intent(in) :: y(7), y_new(7), difference(7)
+    real(wp), intent(in) :: y(:), y_new(:), difference(n_stress)
     real(wp) :: error
     error = norm(difference(1:6)) / max(norm(y(1:6)), norm(y_new(1:6)))
     if (m%intergranular) error = max(error, abs(difference(7)) / m%R)
   end function relative_error
+
+  !> The error of the influence of the increment on stress, relative to what it will be at the end: relative to what it is
+  !> now would not do, because it starts from zero.
+  pure function influence_error(y_new, rate, length, difference) result(error)
+    real(wp), intent(in) :: y_new(:), rate(:), length, difference(:)
+    real(wp) :: error
+    real(wp) :: per_length, at_end
+    per_length = sqrt(squared_size(rate(i_integral + 1:))) / max(rate(i_length), tiny(error))
+    at_end = sqrt(squared_size(y_new(i_integral + 1:))) + max(0.0_wp, length - y_new(i_length)) * per_length
+    error = sqrt(squared_size(difference(i_integral + 1:))) / at_end
+  end function influence_error
+
+  !> Square of the size of an influence: a fourth-order tensor's norm, so that it does not depend on the axes.
+  pure function squared_size(influence) result(s)
+    real(wp), intent(in) :: influence(6, 6)
+    real(wp) :: s
+    integer :: i
+    s = 0.0_wp
+    do i = 1, 6
+      s = s + multiplicity(i) * sum(influence(:, i)**2 / multiplicity)
+    end do
+  end function squared_size
 
   !> Change of the step size after an error (1: just acceptable) of a fifth-order step.
   pure function factor(error)

@@ -5,10 +5,12 @@ module umat_wolffersdorff
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: status_ok, status_out_of_domain
-  use umat_tensor, only: ddot, trace, deviator, trace_of_cube, is_negative_definite, unit_tensor, multiplicity
+  use umat_tensor, only: ddot, trace, deviator, trace_of_cube, squared, is_negative_definite, unit_tensor, &
+                         multiplicity
   implicit none
   private
   public :: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L, in_domain
+  public :: sensitivity_type, sensitivities
 
   !> L and N of one state. L is never stored as a matrix: L:X = identity X + dyad That (That:X).
   type :: hypoplastic_type
@@ -16,7 +18,21 @@ module umat_wolffersdorff
     real(wp) :: identity !< f_s F^2 [stress]
     real(wp) :: dyad !< f_s a^2 [stress]
     real(wp) :: N(6) !< f_s f_d a F (That + T*hat) [stress]
+    real(wp) :: f_s !< [stress]
+    real(wp) :: f_d, F
+    real(wp) :: pressure !< -tr(T - p_t 1) [stress]
+    real(wp) :: power !< (pressure/h_s)^n
   end type hypoplastic_type
+
+  !> Derivatives of the scalars in L and N, for variations of stress and void ratio.
+  type :: sensitivity_type
+    real(wp) :: log_f_s_pressure !< d ln f_s/d pressure, That kept [1/stress]
+    real(wp) :: log_f_s_that(6) !< d ln f_s/d That
+    real(wp) :: log_f_s_e !< d ln f_s/d e
+    real(wp) :: f_d_pressure !< d f_d/d pressure [1/stress]
+    real(wp) :: f_d_e !< d f_d/d e
+    real(wp) :: F_that(6) !< d F/d That; zero on the isotropic axis, where F has a cone and the mean of its slopes is zero
+  end type sensitivity_type
 
 contains
 
@@ -39,37 +55,38 @@ contains
     real(wp), intent(in) :: stress(6), void_ratio
     type(hypoplastic_type), intent(out) :: h
     integer, intent(out) :: status
-    real(wp) :: shifted(6), deviatoric(6), pressure, shrink, power, F, f_s, f_d, e_d, e_c, e_i
+    real(wp) :: shifted(6), deviatoric(6), shrink, e_d, e_c, e_i
 
     shifted = stress - m%p_t * unit_tensor
     if (.not. in_domain(m, stress, void_ratio)) then
-      h = hypoplastic_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      h = hypoplastic_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       status = status_out_of_domain
       return
     end if
     status = status_ok
 
-    pressure = -trace(shifted)
-    h%that = -shifted / pressure
+    h%pressure = -trace(shifted)
+    h%that = -shifted / h%pressure
     deviatoric = deviator(h%that)
-    F = stress_factor(deviatoric)
+    h%F = stress_factor(deviatoric)
 
     ! Limiting void ratios, Bauer's law: theory.md Eq. (6).
-    power = (pressure / m%h_s)**m%n
-    shrink = exp(-power)
+    h%power = (h%pressure / m%h_s)**m%n
+    shrink = exp(-h%power)
     e_d = m%e_d0 * shrink
     e_c = m%e_c0 * shrink
     e_i = m%e_i0 * shrink
 
     ! f_d is zero at and below e_d: the densest packing does not soften (its continuation would be complex).
-    f_d = 0.0_wp
-    if (void_ratio > e_d) f_d = ((void_ratio - e_d) / (e_c - e_d))**m%alpha
-    ! Eqs. (7) to (9); (p/h_s)^(1-n) is (p/h_s)/power.
-    f_s = m%f_b0 * (1.0_wp + e_i) / e_i * (pressure / m%h_s) / power * (e_c / void_ratio)**m%beta / ddot(h%that, h%that)
+    h%f_d = 0.0_wp
+    if (void_ratio > e_d) h%f_d = ((void_ratio - e_d) / (e_c - e_d))**m%alpha
+    ! Eqs. (7) to (9); (pressure/h_s)^(1-n) is (pressure/h_s)/power.
+    h%f_s = m%f_b0 * (1.0_wp + e_i) / e_i * (h%pressure / m%h_s) / h%power * (e_c / void_ratio)**m%beta / &
+            ddot(h%that, h%that)
 
-    h%identity = f_s * F**2
-    h%dyad = f_s * m%a**2
-    h%N = f_s * f_d * m%a * F * (h%that + deviatoric)
+    h%identity = h%f_s * h%F**2
+    h%dyad = h%f_s * m%a**2
+    h%N = h%f_s * h%f_d * m%a * h%F * (h%that + deviatoric)
   end subroutine hypoplastic_tensors
 
   !> F, the Matsuoka-Nakai shape of the limit condition; theory.md Eqs. (3) to (5).
@@ -90,6 +107,50 @@ contains
     ! tan^2(psi) = 3 |T*hat|^2.
     F = sqrt(0.375_wp * square + (2.0_wp - 3.0_wp * square) / (2.0_wp + product)) - sqrt(0.375_wp) * size
   end function stress_factor
+
+  !> Derivatives of f_s, f_d and F; theory.md Eqs. (3) to (9), differentiated.
+  !> @param h L and N of a state inside the domain
+  pure function sensitivities(m, void_ratio, h) result(s)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: void_ratio
+    type(hypoplastic_type), intent(in) :: h
+    type(sensitivity_type) :: s
+    real(wp) :: steepness, e_d, e_i
+    ! d e_x/d pressure = -steepness e_x for every limiting void ratio.
+    steepness = m%n * h%power / h%pressure
+    e_d = m%e_d0 * exp(-h%power)
+    e_i = m%e_i0 * exp(-h%power)
+    s%log_f_s_pressure = (1.0_wp - m%n) / h%pressure + steepness * (1.0_wp / (1.0_wp + e_i) - m%beta)
+    s%log_f_s_that = -2.0_wp * h%that / ddot(h%that, h%that)
+    s%log_f_s_e = -m%beta / void_ratio
+    s%f_d_pressure = 0.0_wp
+    s%f_d_e = 0.0_wp
+    if (h%f_d > 0.0_wp) then
+      s%f_d_e = m%alpha * h%f_d / (void_ratio - e_d)
+      s%f_d_pressure = s%f_d_e * steepness * void_ratio
+    end if
+    s%F_that = stress_factor_slope(deviator(h%that))
+  end function sensitivities
+
+  !> Derivative of F with respect to That, as a tensor: dF = slope:dThat.
+  !> @param deviatoric T*hat
+  pure function stress_factor_slope(deviatoric) result(slope)
+    real(wp), intent(in) :: deviatoric(6)
+    real(wp) :: slope(6)
+    real(wp) :: square, size, product, base, direction(6), product_slope(6)
+    slope = 0.0_wp
+    square = ddot(deviatoric, deviatoric)
+    if (square <= sqrt(tiny(square))) return
+    size = sqrt(square)
+    direction = deviatoric / size
+    product = -6.0_wp * trace_of_cube(direction) * size
+    base = 0.375_wp * square + (2.0_wp - 3.0_wp * square) / (2.0_wp + product)
+    ! product is homogeneous of degree one: d product = -18 (dir dir):d - 2 product/size dir:d.
+    product_slope = -18.0_wp * deviator(squared(direction)) - 2.0_wp * product / size * direction
+    slope = (0.75_wp - 6.0_wp / (2.0_wp + product)) * size * direction - &
+            (2.0_wp - 3.0_wp * square) / (2.0_wp + product)**2 * product_slope
+    slope = slope / (2.0_wp * sqrt(base)) - sqrt(0.375_wp) * direction
+  end function stress_factor_slope
 
   !> L:X.
   pure function apply_L(h, x) result(y)
