@@ -12,7 +12,7 @@ module umat_host_state
   use umat_update, only: report_type
   implicit none
   private
-  public :: tensor_from_host, unpack_state, turn_delta, pack_stress, pack_statev, pack_tangent
+  public :: tensor_from_host, unpack_state, turn_delta, pack_stress, pack_statev, pack_tangent, swap_shear
 
   !> Positions in STATEV.
   integer, parameter, public :: n_statev = 13
@@ -135,5 +135,15 @@ contains
     total(1:3, 1:3) = total(1:3, 1:3) + m%K_w
     ddsdde = real(total(c, c), c_double)
   end subroutine pack_tangent
+
+  !> From 11 22 33 12 23 13, the order of Abaqus/Explicit and PLAXIS, to 11 22 33 12 13 23, and back.
+  pure subroutine swap_shear(values)
+    real(wp), intent(inout) :: values(:)
+    real(wp) :: held
+    if (size(values) < 6) return
+    held = values(5)
+    values(5) = values(6)
+    values(6) = held
+  end subroutine swap_shear
 
 end module umat_host_state

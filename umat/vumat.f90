@@ -9,7 +9,8 @@
 module umat_vumat
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_int, c_ptr
-  use umat_host_state, only: n_statev, sv_evaluations, sv_substep, tensor_from_host, unpack_state, pack_stress, pack_statev
+  use umat_host_state, only: n_statev, sv_evaluations, sv_substep, tensor_from_host, unpack_state, pack_stress, pack_statev, &
+                             swap_shear
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, check_props, parameters, n_parameters, i_phi_c, i_n, &
                            i_e_d0, i_e_c0, i_e_i0
@@ -221,16 +222,6 @@ contains
     call swap_shear(new_stress(:n))
     call put_row(b%stress_new, i, new_stress(:n))
   end subroutine advance_point
-
-  !> From 11 22 33 12 23 13 to 11 22 33 12 13 23, and back.
-  pure subroutine swap_shear(values)
-    real(wp), intent(inout) :: values(:)
-    real(wp) :: held
-    if (size(values) < 6) return
-    held = values(5)
-    values(5) = values(6)
-    values(6) = held
-  end subroutine swap_shear
 
   !> An array of the host.
   !> @param address       may be null
