@@ -19,7 +19,7 @@ module umat_host_state
   integer, parameter, public :: sv_delta = 1, sv_void_ratio = 7, sv_pore_pressure = 8, sv_p = 9, sv_evaluations = 10
   integer, parameter, public :: sv_friction_angle = 11, sv_rho = 12, sv_substep = 13
   !> A stored void ratio below this means "initialise from PROPS(16)".
-  real(wp), parameter :: unset_void_ratio = 1.0e-3_wp
+  real(wp), parameter, public :: unset_void_ratio = 1.0e-3_wp
 
 contains
 
