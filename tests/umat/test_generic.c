@@ -164,11 +164,12 @@ static void test_requests(void **unused) {
   for (int i = 0; i < 50; i++) {
     hypofab_material material;
     hypofab_state state;
-    double strain[6], reversal[36], jump[6], direction[6];
+    double strain[6], tangent[36], reversal[36], jump[6], direction[6];
     point p;
     draw(&r, 6, &material, &state, strain);
-    hypofab_state end = state;
+    hypofab_state end = state, end_with_tangent = state;
     if (hypofab_update(&material, NULL, &end, strain, NULL, NULL)) continue;
+    assert_int_equal(hypofab_update(&material, NULL, &end_with_tangent, strain, tangent, NULL), HYPOFAB_OK);
     hypofab_branch branch;
     for (int code = -3; code <= 4; code++) {
       fill(&p, 6, &material, &state, strain);
@@ -180,7 +181,7 @@ static void test_requests(void **unused) {
         assert_memory_equal(p.stress, before.stress, sizeof p.stress);
         assert_memory_equal(p.variables, before.variables, sizeof p.variables);
       } else {
-        check_state(&p, 6, &material, &end);
+        check_state(&p, 6, &material, code == 4 ? &end_with_tangent : &end);
       }
       if (code == 0) {
         for (int k = 1; k < 36; k++) assert_true(p.K[k] == 0.0);
