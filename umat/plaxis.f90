@@ -163,11 +163,13 @@ contains
     real(c_double), intent(in) :: deps(6), sig0(6), swp0, stvar0(n_plaxis_statev)
     real(c_double), intent(inout) :: sig(6), swp, stvar(n_plaxis_statev)
     type(report_type) :: report
+    type(options_type) :: options
     real(wp) :: strain(6), stress(6)
     integer :: status
 
     strain = strain_of(deps)
-    call update_state(point%m, options_type(first_substep=point%statev(sv_substep)), point%state, strain, report, status)
+    options%first_substep = point%statev(sv_substep)
+    call update_state(point%m, options, point%state, strain, report, status)
     stvar = stvar0
     if (status /= status_ok) then
       sig = sig0
@@ -205,14 +207,15 @@ contains
     type(state_type) :: state
     type(report_type) :: report
     type(options_type) :: options
-    real(wp) :: tangent(6, 6)
+    real(wp) :: tangent(6, 6), zero(6)
 
-    options = options_type(first_substep=point%statev(sv_substep))
+    options%first_substep = point%statev(sv_substep)
     state = point%state
     call update_state(point%m, options, state, strain_of(deps), report, status, tangent)
     if (status /= status_ok) then
       state = point%state
-      call update_state(point%m, options, state, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], report, status, tangent)
+      zero = 0.0_wp
+      call update_state(point%m, options, state, zero, report, status, tangent)
     end if
     if (status == status_ok) call put_stiffness(point%m, tangent, d)
   end subroutine tangent_stiffness
@@ -222,9 +225,12 @@ contains
     type(point_type), intent(in) :: point
     real(c_double), intent(inout) :: d(6, 6)
     integer, intent(out) :: status
+    type(state_type) :: state
     real(wp) :: stiffness(6, 6), zero(6)
     zero = 0.0_wp
-    call continuum_stiffness(point%m, state_type(point%state%stress, zero, point%state%void_ratio), zero, stiffness, status)
+    state = point%state
+    state%delta = zero
+    call continuum_stiffness(point%m, state, zero, stiffness, status)
     if (status == status_ok) call put_stiffness(point%m, stiffness, d)
   end subroutine elastic_stiffness
 
