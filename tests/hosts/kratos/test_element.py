@@ -1,0 +1,127 @@
+"""One element in Kratos GeoMechanics against the element test driver."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kratos import PROGRAM, Run, Start, run, start_of
+from replay import Array, deck, ends_of_steps, norm, relative_difference, run_driver, strain_steps, tensor
+
+TOLERANCE = 1e-6
+
+#: The path of table 1 in cube.mdpa: direction, axial strain and time of its corners.
+PATH = (("compression", -0.005, 0.5), ("extension", -0.0045, 0.6), ("compression", -0.0085, 1.0))
+
+
+def host(parameters: str, folder: Path) -> Run:
+    """Run a parameter file of examples/fe/kratos."""
+    return run("run.py", [parameters], folder)
+
+
+def effective_stress(result: Run) -> Array:
+    """STRESS of the UMAT plus the pore pressure in STATEV(8)."""
+    return result.stress + result.statev[:, 7:8] * [1, 1, 1, 0, 0, 0]
+
+
+def compare(result: Run, start: Start, folder: Path) -> None:
+    """Stress, delta and void ratio of the host are those of the driver on the host's strain path."""
+    text = deck(start.props, start.stress, start.delta, start.void_ratio, strain_steps(result.strain))
+    reference = run_driver(PROGRAM, folder, text)
+    reference = {name: column[ends_of_steps(reference)] for name, column in reference.items()}
+    assert len(reference["time"]) == len(result.strain)
+    stress = relative_difference(effective_stress(result), tensor(reference, "sig"))
+    delta = result.statev[:, :6] * [1, 1, 1, 0.5, 0.5, 0.5]
+    memory = float(norm(delta - tensor(reference, "delta")).max() / start.props[11])
+    void_ratio = float(np.abs(result.statev[:, 6] - reference["void_ratio"]).max())
+    print(f"differences from the driver: stress {stress:.1e}, delta {memory:.1e} R, void ratio {void_ratio:.1e}")
+    assert stress < TOLERANCE
+    assert memory < TOLERANCE
+    assert void_ratio < TOLERANCE
+
+
+def preset(loading: str, unloading: str) -> list[str]:
+    """Steps of the driver along the path of the tables by presets along z."""
+    names = {"compression": loading, "extension": unloading}
+    return [f"{{preset: {names[way]}, axis: z, {until(end)}}}" for way, end, _ in PATH]
+
+
+def straight(lateral: float) -> list[str]:
+    """Steps of the driver along the path of the tables, with a ratio of lateral to axial strain rate."""
+    steps = []
+    for way, end, _ in PATH:
+        axial = -1.0 if way == "compression" else 1.0
+        side = f"{{strain_rate: {lateral * axial}}}"
+        steps.append(f"{{control: {{xx: {side}, yy: {side}, zz: {{strain_rate: {axial}}}}}, {until(end)}}}")
+    return steps
+
+
+def until(axial_strain: float) -> str:
+    """The end of a step of the driver, without rows in between."""
+    return f"until: {{quantity: eps_zz, value: {axial_strain}}}, rows: 1"
+
+
+def difference_from(steps: list[str], result: Run, start: Start, folder: Path) -> float:
+    """The largest difference of effective stress from a test the driver controls itself, at the corners of the path."""
+    reference = run_driver(PROGRAM, folder, deck(start.props, start.stress, start.delta, start.void_ratio, steps))
+    corners = [int(np.abs(result.columns["time"] - time).argmin()) for _, _, time in PATH]
+    assert np.allclose(result.strain[corners, 2], [end for _, end, _ in PATH])
+    stress = tensor({name: column[ends_of_steps(reference)] for name, column in reference.items()}, "sig")
+    difference = relative_difference(effective_stress(result)[corners], stress)
+    print(f"difference from the driver's own test: {difference:.1e}")
+    return difference
+
+
+def test_drained_triaxial(tmp_path: Path) -> None:
+    result, start = host("drained_triaxial.json", tmp_path), start_of("drained_triaxial.json")
+    compare(result, start, tmp_path)
+    assert np.allclose(result.stress[:, :2], -100, rtol=1e-9)
+    # The driver holds the lateral stress all the time, the host at the ends of its steps.
+    steps = preset("drained_triaxial_compression", "drained_triaxial_extension")
+    assert difference_from(steps, result, start, tmp_path) < 3e-3
+
+
+def test_undrained_triaxial_with_pore_water_in_the_umat(tmp_path: Path) -> None:
+    result, start = host("undrained_triaxial.json", tmp_path), start_of("undrained_triaxial.json")
+    compare(result, start, tmp_path)
+    assert np.allclose(result.stress[:, :2], -100, rtol=1e-7)
+    volume = result.strain[:, :3].sum(axis=1)
+    assert np.allclose(result.statev[:, 7], -start.props[14] * volume, rtol=1e-6, atol=1e-6)
+    # The water gives way a little: u/K_w.
+    steps = preset("undrained_triaxial_compression", "undrained_triaxial_extension")
+    assert difference_from(steps, result, start, tmp_path) < 3e-2
+
+
+def test_constant_volume_triaxial(tmp_path: Path) -> None:
+    result, start = host("constant_volume_triaxial.json", tmp_path), start_of("constant_volume_triaxial.json")
+    compare(result, start, tmp_path)
+    assert difference_from(straight(-0.5), result, start, tmp_path) < TOLERANCE
+
+
+def test_oedometer(tmp_path: Path) -> None:
+    result, start = host("oedometer.json", tmp_path), start_of("oedometer.json")
+    compare(result, start, tmp_path)
+    assert difference_from(preset("oedometer_loading", "oedometer_unloading"), result, start, tmp_path) < TOLERANCE
+
+
+def test_plane_strain(tmp_path: Path) -> None:
+    result, start = host("biaxial.json", tmp_path), start_of("biaxial.json")
+    compare(result, start, tmp_path)
+    assert np.allclose(result.stress[:, 0], -100, rtol=1e-9)
+    assert np.all(result.strain[:, 2] == 0)
+
+
+def test_order_of_shear_components(tmp_path: Path) -> None:
+    result = run(Path(__file__).with_name("general_shear.py"), [], tmp_path)
+    assert np.min(np.abs(result.strain[-1, 3:])) > 1e-5  # all three shear strains
+    compare(result, start_of("oedometer.json"), tmp_path)
+
+
+def test_a_refused_increment_is_cut_and_goes_through(tmp_path: Path) -> None:
+    result, start = host("step_cut.json", tmp_path), start_of("step_cut.json")
+    first = result.steps[0]
+    assert first.cuts >= 1
+    assert np.all(np.isnan(first.residuals[0])), "the UMAT did not refuse the whole step"
+    assert np.isfinite(first.residuals[-1]).all()
+    assert result.columns["time"][-1] == pytest.approx(1)
+    assert 2 * result.strain[-1, 4] == pytest.approx(2.4, rel=1e-2)
+    compare(result, start, tmp_path)
