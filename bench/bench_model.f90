@@ -64,7 +64,7 @@ contains
     end do
   end subroutine make_states
 
-  !> Mean cost of a rate [ns].
+  !> Cost of a rate [ns]: the best of many passes over all states.
   subroutine time_rates(cost)
     real(wp), intent(out) :: cost
     integer, parameter :: n_repeats = 200
@@ -73,15 +73,16 @@ contains
     integer(int64) :: start, finish, ticks
     integer :: k, j, branch, status
     sink = 0.0_wp
-    call system_clock(start, ticks)
+    cost = huge(cost)
     do j = 1, n_repeats
+      call system_clock(start, ticks)
       do k = 1, n_states
         call state_rate(materials(k), states(k), directions(:, k), rate, branch, status)
         sink = sink + rate%stress(1)
       end do
+      call system_clock(finish)
+      cost = min(cost, 1.0e9_wp * real(finish - start, wp) / real(ticks, wp) / n_states)
     end do
-    call system_clock(finish)
-    cost = 1.0e9_wp * real(finish - start, wp) / real(ticks, wp) / (n_repeats * n_states)
     if (abs(sink) > huge(sink)) write (*, *) sink ! keeps the loop
   end subroutine time_rates
 

@@ -14,13 +14,14 @@
 !> The derivative of delta at a fixed fraction of the increment with respect to the increment is known in closed form too
 !> (theory.md, section 4); it enters the consistent tangent.
 module umat_delta_path
+  use umat_intergranular, only: intergranular_type, intergranular_direction
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: branch_plain, branch_loading
   use umat_tensor, only: ddot, norm, multiplicity
   implicit none
   private
-  public :: delta_path_type, delta_path, path_point_type, path_point, speed_at, measures_length, kappa_slope
+  public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, speed_at, measures_length, kappa_slope
   public :: delta_influence
 
   !> Below this v, Eq. (20) cancels more digits than the limit v = 0 leaves out.
@@ -33,22 +34,20 @@ module umat_delta_path
     integer :: kind
     real(wp) :: start !< x at the start
     real(wp) :: along(6) !< unit strain direction d
-    real(wp) :: across(6) !< fixed: delta; straight: delta at x = 0; plane: unit direction of the part of delta normal to d
+    real(wp) :: across(6) !< straight: delta at x = 0; plane: unit direction of the part of delta normal to d
     real(wp) :: kappa !< first integral of the plane path
     real(wp) :: u !< delta:d/R at the start of the increment, below zero when a reversal came first
     real(wp) :: v !< size of the part of delta/R normal to d at the start
     real(wp) :: turn !< length of the reversal that came first [strain]
-    real(wp) :: R
-    real(wp) :: beta_r
+    type(intergranular_type) :: start_g !< fixed: direction and mobilisation of delta
   end type delta_path_type
 
-  !> A point of a path. Where the parameter is the length itself, only delta has a meaning.
+  !> A point of a path.
   type :: path_point_type
-    real(wp) :: delta(6)
+    type(intergranular_type) :: g !< direction and mobilisation of delta
     real(wp) :: speed = 1.0_wp !< d lambda/dx [strain]
-    real(wp) :: rho = 0.0_wp
-    real(wp) :: rho_beta = 0.0_wp !< rho^beta_r
-    real(wp) :: cosine = 0.0_wp, sine = 0.0_wp !< of the angle between delta and d
+    real(wp) :: rho_beta = 1.0_wp !< rho^beta_r; loading only
+    real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !< of the angle between delta and d; loading only
     real(wp) :: sine_beta = 0.0_wp !< sine^beta_r
   end type path_point_type
 
@@ -69,7 +68,8 @@ contains
     ! |v| only decays: what is below rounding now stays there.
     real(wp), parameter :: negligible = 10.0_wp * epsilon(1.0_wp)
 
-    path = delta_path_type(kind_fixed, 0.0_wp, direction, delta, 0.0_wp, 0.0_wp, 0.0_wp, turn, m%R, m%beta_r)
+    path = delta_path_type(kind_fixed, 0.0_wp, direction, delta, 0.0_wp, 0.0_wp, 0.0_wp, turn, &
+                           intergranular_type(0.0_wp, 0.0_wp, 0.0_wp))
     if (branch == branch_plain) return
     if (branch /= branch_loading) then
       path%kind = kind_straight
@@ -89,53 +89,69 @@ contains
     else if (rho_beta < 1.0_wp) then
       path%kind = kind_axis
       path%start = -log(1.0_wp - rho_beta)
+    else
+      path%start_g = intergranular_type(direction, 1.0_wp, 1.0_wp)
     end if
   end function delta_path
 
   !> The point of a path at a parameter x.
-  pure function path_point(path, x) result(point)
+  pure function path_point(m, path, x) result(point)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x
     type(path_point_type) :: point
-    real(wp) :: decay
+    real(wp) :: decay, log_rho
 
-    point = path_point_type(delta=path%across)
     select case (path%kind)
     case (kind_straight)
-      point%delta = path%across + x * path%along
+      point%g = intergranular_direction(m, path%across + x * path%along)
     case (kind_axis)
-      decay = exp(-x)
-      point%rho_beta = max(0.0_wp, 1.0_wp - decay)
-      point%rho = point%rho_beta**(1.0_wp / path%beta_r)
-      point%delta = path%R * point%rho * path%along
+      point%g = intergranular_type(path%along, 0.0_wp, 0.0_wp)
+      point%cosine = 1.0_wp
+      point%rho_beta = max(0.0_wp, 1.0_wp - exp(-x))
       point%speed = 0.0_wp
-      if (point%rho_beta > 0.0_wp) point%speed = path%R * point%rho / (point%rho_beta * path%beta_r)
+      if (point%rho_beta > 0.0_wp) then
+        log_rho = log(point%rho_beta) / m%beta_r
+        point%g%rho = exp(log_rho)
+        point%g%rho_chi = exp(m%chi * log_rho)
+        point%speed = m%R * point%g%rho / (point%rho_beta * m%beta_r)
+      end if
     case (kind_plane)
       decay = exp(-x)
       point%cosine = (1.0_wp - decay**2) / (1.0_wp + decay**2)
       point%sine = 2.0_wp * decay / (1.0_wp + decay**2)
-      point%sine_beta = point%sine**path%beta_r
+      point%sine_beta = point%sine**m%beta_r
       point%rho_beta = 1.0_wp / (1.0_wp + path%kappa * point%sine_beta)
-      point%rho = point%rho_beta**(1.0_wp / path%beta_r)
-      point%delta = path%R * point%rho * (point%cosine * path%along + point%sine * path%across)
-      point%speed = path%R * point%rho
+      log_rho = log(point%rho_beta) / m%beta_r
+      point%g = intergranular_type(point%cosine * path%along + point%sine * path%across, exp(log_rho), &
+                                   exp(m%chi * log_rho))
+      point%speed = m%R * point%g%rho
+    case default
+      point%g = path%start_g
     end select
   end function path_point
 
+  !> delta at a point.
+  pure function delta_of(m, point) result(delta)
+    type(material_type), intent(in) :: m
+    type(path_point_type), intent(in) :: point
+    real(wp) :: delta(6)
+    delta = m%R * point%g%rho * point%g%direction
+  end function delta_of
+
   !> d lambda/dx at a parameter x [strain].
-  pure function speed_at(path, x) result(speed)
+  pure function speed_at(m, path, x) result(speed)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x
     real(wp) :: speed
     real(wp) :: decay
-    type(path_point_type) :: point
     select case (path%kind)
     case (kind_axis)
-      point = path_point(path, x)
-      speed = point%speed
+      speed = m%R / m%beta_r * max(0.0_wp, 1.0_wp - exp(-x))**(1.0_wp / m%beta_r - 1.0_wp)
     case (kind_plane)
       decay = exp(-x)
-      speed = path%R * (1.0_wp + path%kappa * (2.0_wp * decay / (1.0_wp + decay**2))**path%beta_r)**(-1.0_wp / path%beta_r)
+      speed = m%R * (1.0_wp + path%kappa * (2.0_wp * decay / (1.0_wp + decay**2))**m%beta_r)**(-1.0_wp / m%beta_r)
     case default
       speed = 1.0_wp
     end select
@@ -149,11 +165,11 @@ contains
   end function measures_length
 
   !> d rho/d kappa at a point; zero off the plane paths.
-  pure function kappa_slope(path, point) result(slope)
-    type(delta_path_type), intent(in) :: path
+  pure function kappa_slope(m, point) result(slope)
+    type(material_type), intent(in) :: m
     type(path_point_type), intent(in) :: point
     real(wp) :: slope
-    slope = -point%rho * point%rho_beta * point%sine_beta / path%beta_r
+    slope = -point%g%rho * point%rho_beta * point%sine_beta / m%beta_r
   end function kappa_slope
 
   !> Influence of the strain increment on delta, at a fixed fraction of the increment.
@@ -163,25 +179,29 @@ contains
   !> @param path     not of the plain model
   !> @param x, point parameter and point
   !> @param done     length of strain done since the start of the increment, a reversal that came first included
-  !> @param rate     d delta/d lambda there
   !> @param integral of kappa_slope over x, from the path's start
   !> @return (component of eta, component of delta) [strain]
-  pure function delta_influence(path, x, point, done, rate, integral) result(influence)
+  pure function delta_influence(m, path, x, point, done, integral) result(influence)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
-    real(wp), intent(in) :: x, done, rate(6), integral
+    real(wp), intent(in) :: x, done, integral
     type(path_point_type), intent(in) :: point
     real(wp) :: influence(6, 6)
     real(wp) :: normal_share, in_plane(6), along(6), across(6), on_along(6)
     integer :: i
 
-    normal_share = done
-    if (path%kind /= kind_straight) normal_share = influence_normal(path, x, point)
     along = multiplicity * path%along
-    on_along = 0.0_wp
-    if (path%kind /= kind_straight) on_along = done * rate - normal_share * path%along
+    if (path%kind == kind_straight) then
+      normal_share = done
+      on_along = 0.0_wp
+    else
+      normal_share = influence_normal(m, path, x, point)
+      ! Eq. (14) on the path: d delta/d lambda = d - rho^beta_r cos(theta) deltahat.
+      on_along = done * (path%along - point%rho_beta * point%cosine * point%g%direction) - normal_share * path%along
+    end if
     if (path%kind == kind_plane .and. path%v >= on_axis) then
       across = multiplicity * path%across
-      in_plane = influence_in_plane(path, point, integral) - normal_share * path%across
+      in_plane = influence_in_plane(m, path, point, integral) - normal_share * path%across
       do i = 1, 6
         influence(:, i) = on_along(i) * along + in_plane(i) * across
       end do
@@ -196,7 +216,8 @@ contains
   end function delta_influence
 
   !> Factor of eta normal to the plane of the path; theory.md Eq. (19) [strain].
-  pure function influence_normal(path, x, point) result(factor)
+  pure function influence_normal(m, path, x, point) result(factor)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x
     type(path_point_type), intent(in) :: point
@@ -204,20 +225,21 @@ contains
     real(wp) :: u, v_over_start
     select case (path%kind)
     case (kind_axis)
-      u = point%rho
-      v_over_start = exp(-(x - path%start) / path%beta_r)
+      u = point%g%rho
+      v_over_start = exp(-(x - path%start) / m%beta_r)
     case (kind_plane)
-      u = point%rho * point%cosine
-      v_over_start = point%rho * point%sine / path%v
+      u = point%g%rho * point%cosine
+      v_over_start = point%g%rho * point%sine / path%v
     case default
       u = path%u
-      v_over_start = exp(-x / path%R)
+      v_over_start = exp(-x / m%R)
     end select
-    factor = path%R * (u - path%u * v_over_start)
+    factor = m%R * (u - path%u * v_over_start)
   end function influence_normal
 
   !> Answer of delta to eta along the unit normal part of delta; theory.md Eq. (20) [strain].
-  pure function influence_in_plane(path, point, integral) result(answer)
+  pure function influence_in_plane(m, path, point, integral) result(answer)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     type(path_point_type), intent(in) :: point
     real(wp), intent(in) :: integral
@@ -225,16 +247,16 @@ contains
     real(wp) :: base, kappa_change, x_change, rho_change
     if (path%turn > 0.0_wp) then
       base = path%v
-      kappa_change = path%beta_r * (path%kappa + 1.0_wp) * path%u / path%v
+      kappa_change = m%beta_r * (path%kappa + 1.0_wp) * path%u / path%v
     else
       base = (path%u**2 + path%v**2) / path%v
-      kappa_change = path%beta_r * path%kappa * path%u / path%v
+      kappa_change = m%beta_r * path%kappa * path%u / path%v
     end if
-    associate (rho => point%rho, cosine => point%cosine, sine => point%sine)
+    associate (rho => point%g%rho, cosine => point%cosine, sine => point%sine)
       x_change = (base - kappa_change * integral) / rho
       rho_change = path%kappa * point%sine_beta * cosine * rho * point%rho_beta * x_change + &
-                   kappa_slope(path, point) * kappa_change
-      answer = path%R * ((rho_change * cosine + rho * x_change * sine**2 - rho * sine) * path%along + &
+                   kappa_slope(m, point) * kappa_change
+      answer = m%R * ((rho_change * cosine + rho * x_change * sine**2 - rho * sine) * path%along + &
                          (rho_change * sine - rho * x_change * sine * cosine + rho * cosine) * path%across)
     end associate
   end function influence_in_plane

@@ -35,28 +35,28 @@ contains
   !>
   !> The branch is an argument, so that an integrator can stay on a smooth right-hand side.
   !> @param m           material
-  !> @param state       inside the model's domain
+  !> @param stress, void_ratio inside the model's domain
+  !> @param g           direction and mobilisation of delta; without meaning for the plain model
   !> @param stretching  D [1/time]
   !> @param branch      from choose_branch
   !> @param stress_rate [stress/time]; zero on failure
   !> @param status      status_ok or status_out_of_domain
-  pure subroutine rate_of_stress(m, state, stretching, branch, stress_rate, status)
+  pure subroutine rate_of_stress(m, stress, void_ratio, g, stretching, branch, stress_rate, status)
     type(material_type), intent(in) :: m
-    type(state_type), intent(in) :: state
+    real(wp), intent(in) :: stress(6), void_ratio
+    type(intergranular_type), intent(in) :: g
     real(wp), intent(in) :: stretching(6)
     integer, intent(in) :: branch
     real(wp), intent(out) :: stress_rate(6)
     integer, intent(out) :: status
     type(hypoplastic_type) :: h
-    type(intergranular_type) :: g
 
     stress_rate = 0.0_wp
-    call hypoplastic_tensors(m, state%stress, state%void_ratio, h, status)
+    call hypoplastic_tensors(m, stress, void_ratio, h, status)
     if (status /= status_ok) return
     if (branch == branch_plain) then
       stress_rate = apply_L(h, stretching) + norm(stretching) * h%N
     else
-      g = intergranular_direction(m, state%delta)
       stress_rate = scale_of(m, g) * apply_L(h, stretching) + &
                     ddot(g%direction, stretching) * turn_of(m, h, g, branch)
     end if
@@ -72,11 +72,18 @@ contains
     type(state_type), intent(out) :: rate
     integer, intent(out) :: branch, status
 
+    type(intergranular_type) :: g
+
     rate = state_type(0.0_wp, 0.0_wp, 0.0_wp)
-    branch = choose_branch(m, state%delta, stretching)
-    call rate_of_stress(m, state, stretching, branch, rate%stress, status)
+    g = intergranular_type(0.0_wp, 0.0_wp, 0.0_wp)
+    branch = branch_plain
+    if (m%intergranular) then
+      g = intergranular_direction(m, state%delta)
+      branch = branch_of(g, stretching)
+    end if
+    call rate_of_stress(m, state%stress, state%void_ratio, g, stretching, branch, rate%stress, status)
     if (status /= status_ok) return
-    if (m%intergranular) rate%delta = delta_rate(m, intergranular_direction(m, state%delta), stretching, branch)
+    if (m%intergranular) rate%delta = delta_rate(m, g, stretching, branch)
     rate%void_ratio = (1.0_wp + state%void_ratio) * trace(stretching) ! Eq. (15): grains keep their volume
   end subroutine state_rate
 

@@ -9,16 +9,15 @@
 !> components of the increment, with analytic derivatives (variation.f90).
 module umat_update
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use umat_delta_path, only: delta_path_type, delta_path, path_point_type, path_point, speed_at, measures_length, &
-                             kappa_slope, delta_influence
-  use umat_intergranular, only: intergranular_direction, delta_rate
+  use umat_delta_path, only: delta_path_type, delta_path, path_point_type, path_point, delta_of, speed_at, &
+                             measures_length, kappa_slope, delta_influence
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_rate, only: state_type, rate_of_stress, choose_branch, continuum_stiffness
   use umat_status, only: status_ok, status_out_of_domain, status_step_limit, status_bad_state, status_bad_argument, &
                          branch_plain, branch_loading, branch_reversal
   use umat_tensor, only: ddot, norm, trace, unit_tensor, multiplicity
-  use umat_variation, only: variation_type, vary_rate_of_stress
+  use umat_variation, only: vary_rate_of_stress
   use umat_wolffersdorff, only: in_domain
   implicit none
   private
@@ -57,15 +56,15 @@ module umat_update
   integer, parameter :: n_stages = 7
   real(wp), parameter :: c(n_stages) = [0.0_wp, 1.0_wp / 5.0_wp, 3.0_wp / 10.0_wp, 4.0_wp / 5.0_wp, 8.0_wp / 9.0_wp, &
                                         1.0_wp, 1.0_wp]
-  real(wp), parameter :: a2(1) = [1.0_wp / 5.0_wp]
-  real(wp), parameter :: a3(2) = [3.0_wp / 40.0_wp, 9.0_wp / 40.0_wp]
-  real(wp), parameter :: a4(3) = [44.0_wp / 45.0_wp, -56.0_wp / 15.0_wp, 32.0_wp / 9.0_wp]
-  real(wp), parameter :: a5(4) = [19372.0_wp / 6561.0_wp, -25360.0_wp / 2187.0_wp, 64448.0_wp / 6561.0_wp, &
-                                  -212.0_wp / 729.0_wp]
-  real(wp), parameter :: a6(5) = [9017.0_wp / 3168.0_wp, -355.0_wp / 33.0_wp, 46732.0_wp / 5247.0_wp, &
-                                  49.0_wp / 176.0_wp, -5103.0_wp / 18656.0_wp]
-  real(wp), parameter :: b(6) = [35.0_wp / 384.0_wp, 0.0_wp, 500.0_wp / 1113.0_wp, 125.0_wp / 192.0_wp, &
-                                 -2187.0_wp / 6784.0_wp, 11.0_wp / 84.0_wp]
+  real(wp), parameter :: a(6, n_stages) = reshape([ &
+    0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+    1.0_wp / 5.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+    3.0_wp / 40.0_wp, 9.0_wp / 40.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+    44.0_wp / 45.0_wp, -56.0_wp / 15.0_wp, 32.0_wp / 9.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+    19372.0_wp / 6561.0_wp, -25360.0_wp / 2187.0_wp, 64448.0_wp / 6561.0_wp, -212.0_wp / 729.0_wp, 0.0_wp, 0.0_wp, &
+    9017.0_wp / 3168.0_wp, -355.0_wp / 33.0_wp, 46732.0_wp / 5247.0_wp, 49.0_wp / 176.0_wp, -5103.0_wp / 18656.0_wp, 0.0_wp, &
+    35.0_wp / 384.0_wp, 0.0_wp, 500.0_wp / 1113.0_wp, 125.0_wp / 192.0_wp, -2187.0_wp / 6784.0_wp, 11.0_wp / 84.0_wp], &
+    [6, n_stages])
   real(wp), parameter :: error_weight(n_stages) = [71.0_wp / 57600.0_wp, 0.0_wp, -71.0_wp / 16695.0_wp, &
                                                    71.0_wp / 1920.0_wp, -17253.0_wp / 339200.0_wp, 22.0_wp / 525.0_wp, &
                                                    -1.0_wp / 40.0_wp]
@@ -164,8 +163,7 @@ contains
     type(report_type), intent(inout) :: report
     integer, intent(out) :: status
     type(delta_path_type) :: path
-    type(path_point_type) :: point
-    real(wp) :: y(n), y_new(n), k(n, n_stages), x, h, error
+    real(wp) :: y(n_tangent), y_new(n_tangent), k(n_tangent, n_stages), difference(n_tangent), x, h, error
     integer :: obstacle !< why the end cannot be reached, if it cannot
     logical :: last
 
@@ -173,8 +171,8 @@ contains
     if (.not. length > 0.0_wp) return
     path = delta_path(m, state%delta, direction, branch, turn)
     x = path%start
-    y = 0.0_wp
     y(1:6) = state%stress
+    y(i_length:i_integral) = 0.0_wp
     if (n == n_tangent) y(i_integral + 1:) = reshape(influence, [36])
     call evaluate(x, y, k(:, 1), status)
     report%evaluations = report%evaluations + 1
@@ -182,27 +180,28 @@ contains
     h = first_substep(m, options, path, length)
     obstacle = status_step_limit
     do
-      call shorten_to_length(path, x, length - y(i_length), h, last)
+      call shorten_to_length(m, path, x, length - y(i_length), h, last)
       call step(x, y, k, h, y_new, status)
       report%evaluations = report%evaluations + n_stages - 1
       if (status == status_ok) then
-        error = relative_error(m, y, y_new, h * matmul(k(:n_stress, :), error_weight)) / (share * options%tolerance)
-        if (n == n_tangent) error = max(error, influence_error(y_new, k(:, n_stages), length, h * matmul(k, error_weight)) &
-                                        / options%tolerance)
+        call combine(difference, k, h * error_weight)
+        error = relative_error(m, y, y_new, difference)
+        if (n == n_tangent) error = max(error, influence_error(y_new, k(:, n_stages), length, difference))
+        error = error / (share * options%tolerance)
       else
         error = huge(error)
         obstacle = status
       end if
       if (error <= 1.0_wp) then
         x = x + h
-        y = y_new
-        k(:, 1) = k(:, n_stages) ! the last stage is the first of the next step
+        y(:n) = y_new(:n)
+        k(:n, 1) = k(:n, n_stages) ! the last stage is the first of the next step
         if (last) exit
         if (norm(y(1:6)) < vanishing * norm(state%stress)) then
           status = status_out_of_domain
           return
         end if
-      else if (h * speed_at(path, x + h) < smallest_substep * length) then
+      else if (h * speed_at(m, path, x + h) < smallest_substep * length) then
         status = obstacle
         return
       end if
@@ -212,77 +211,61 @@ contains
       end if
       h = h * factor(error)
     end do
-    report%substep = h * factor(error) * speed_at(path, x)
-    point = path_point(path, x)
-    state = state_type(y(1:6), point%delta, void_ratio_at(length))
+    report%substep = h * factor(error) * speed_at(m, path, x)
+    if (m%intergranular) state%delta = delta_of(m, path_point(m, path, x))
+    state%void_ratio = void_ratio_at(length)
+    state%stress = y(1:6)
     if (n == n_tangent) influence = reshape(y(i_integral + 1:), [6, 6])
 
   contains
 
     !> One Runge-Kutta step; k(:,1) is given, the others are filled.
     pure subroutine step(x, y, k, h, y_new, status)
-      real(wp), intent(in) :: x, y(n), h
-      real(wp), intent(inout) :: k(n, n_stages)
-      real(wp), intent(out) :: y_new(n)
+      real(wp), intent(in) :: x, y(n_tangent), h
+      real(wp), intent(inout) :: k(n_tangent, n_stages)
+      real(wp), intent(out) :: y_new(n_tangent)
       integer, intent(out) :: status
-      y_new = y
-      call evaluate(x + c(2) * h, moved(y, h, k, a2), k(:, 2), status)
-      if (status /= status_ok) return
-      call evaluate(x + c(3) * h, moved(y, h, k, a3), k(:, 3), status)
-      if (status /= status_ok) return
-      call evaluate(x + c(4) * h, moved(y, h, k, a4), k(:, 4), status)
-      if (status /= status_ok) return
-      call evaluate(x + c(5) * h, moved(y, h, k, a5), k(:, 5), status)
-      if (status /= status_ok) return
-      call evaluate(x + c(6) * h, moved(y, h, k, a6), k(:, 6), status)
-      if (status /= status_ok) return
-      y_new = moved(y, h, k, b)
-      call evaluate(x + h, y_new, k(:, 7), status)
+      integer :: i
+      do i = 2, n_stages
+        call combine(y_new, k, h * a(:i - 1, i))
+        y_new(:n) = y(:n) + y_new(:n)
+        call evaluate(x + c(i) * h, y_new, k(:, i), status)
+        if (status /= status_ok) return
+      end do
     end subroutine step
 
-    !> y + h (k a), by the leading stages.
-    pure function moved(y, h, k, a) result(there)
-      real(wp), intent(in) :: y(n), h, k(n, n_stages), a(:)
-      real(wp) :: there(n)
+    !> The sum of the leading stages, weighted.
+    pure subroutine combine(total, k, weights)
+      real(wp), intent(out) :: total(n_tangent)
+      real(wp), intent(in) :: k(n_tangent, n_stages), weights(:)
       integer :: j
-      there = y
-      do j = 1, size(a)
-        there = there + (h * a(j)) * k(:, j)
+      total(:n) = weights(1) * k(:n, 1)
+      do j = 2, size(weights)
+        total(:n) = total(:n) + weights(j) * k(:n, j)
       end do
-    end function moved
+    end subroutine combine
 
     !> Derivatives of what is integrated with respect to the parameter of the path.
     pure subroutine evaluate(x, y, rate, status)
-      real(wp), intent(in) :: x, y(n)
-      real(wp), intent(out) :: rate(n)
+      real(wp), intent(in) :: x, y(n_tangent)
+      real(wp), intent(out) :: rate(n_tangent)
       integer, intent(out) :: status
       type(path_point_type) :: point
-      type(state_type) :: here
-      type(variation_type) :: v
-      real(wp) :: variation(6, 6)
-      integer :: i
-      point = path_point(path, x)
-      here = state_type(y(1:6), point%delta, void_ratio_at(y(i_length)))
+      real(wp) :: void_ratio, d_delta(6, 6), done
+      point = path_point(m, path, x)
+      void_ratio = void_ratio_at(y(i_length))
       if (n == n_tangent) then
-        v%stress = reshape(y(i_integral + 1:), [6, 6])
-        v%delta = 0.0_wp
-        if (m%intergranular) &
-          v%delta = delta_influence(path, x, point, turn + y(i_length), &
-                                    delta_rate(m, intergranular_direction(m, here%delta), direction, branch), y(i_integral))
-        v%void_ratio = (1.0_wp + here%void_ratio) * (turn + y(i_length)) * unit_tensor
-        v%stretching = 0.0_wp
-        do i = 1, 6
-          v%stretching(i, i) = 1.0_wp
-        end do
-        rate(i_integral) = 0.0_wp
-        call vary_rate_of_stress(m, here, direction, branch, v, rate(1:6), variation, status)
-        rate(i_integral + 1:) = reshape(variation, [36])
+        done = turn + y(i_length)
+        d_delta = 0.0_wp
+        if (m%intergranular) d_delta = delta_influence(m, path, x, point, done, y(i_integral))
+        call vary_rate_of_stress(m, y(1:6), void_ratio, point%g, direction, branch, y(i_integral + 1), d_delta, &
+                                 (1.0_wp + void_ratio) * done * unit_tensor, rate(1:6), rate(i_integral + 1), status)
       else
-        call rate_of_stress(m, here, direction, branch, rate(1:6), status)
+        call rate_of_stress(m, y(1:6), void_ratio, point%g, direction, branch, rate(1:6), status)
       end if
-      rate(i_length) = 1.0_wp
-      rate = point%speed * rate
-      if (n == n_tangent) rate(i_integral) = kappa_slope(path, point)
+      rate(i_length:i_integral) = 1.0_wp
+      rate(:n) = point%speed * rate(:n)
+      if (n == n_tangent) rate(i_integral) = kappa_slope(m, point)
     end subroutine evaluate
 
     !> Void ratio after a length of strain in this part; theory.md Eq. (15) integrated.
@@ -295,21 +278,23 @@ contains
   end subroutine integrate
 
   !> Length of strain that a step of the parameter covers, by the same quadrature as in the step itself.
-  pure function length_of_step(path, x, h) result(length)
+  pure function length_of_step(m, path, x, h) result(length)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x, h
     real(wp) :: length
     integer :: i
     length = 0.0_wp
     do i = 1, 6
-      if (i /= 2) length = length + h * b(i) * speed_at(path, x + c(i) * h)
+      if (i /= 2) length = length + h * a(i, n_stages) * speed_at(m, path, x + c(i) * h)
     end do
   end function length_of_step
 
   !> Shorten a step of the parameter to one that covers a length of strain, by Newton's method, if it covers more.
   !> @param h    step
   !> @param last does the step cover the length?
-  pure subroutine shorten_to_length(path, x, length, h, last)
+  pure subroutine shorten_to_length(m, path, x, length, h, last)
+    type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x, length
     real(wp), intent(inout) :: h
@@ -322,9 +307,9 @@ contains
       return
     end if
     ! The speed grows along a path, so its value at the end bounds the length covered.
-    last = h * speed_at(path, x + h) >= length
+    last = h * speed_at(m, path, x + h) >= length
     if (.not. last) return
-    excess = length_of_step(path, x, h) - length
+    excess = length_of_step(m, path, x, h) - length
     last = excess >= 0.0_wp
     if (.not. last) return
     lower = 0.0_wp
@@ -336,9 +321,9 @@ contains
       else
         lower = h
       end if
-      h = h - excess / speed_at(path, x + h)
+      h = h - excess / speed_at(m, path, x + h)
       if (h <= lower .or. h >= upper) h = 0.5_wp * (lower + upper)
-      excess = length_of_step(path, x, h) - length
+      excess = length_of_step(m, path, x, h) - length
     end do
   end subroutine shorten_to_length
 
@@ -353,14 +338,14 @@ contains
     if (m%intergranular) wanted = 0.5_wp * m%R
     if (options%first_substep > 0.0_wp) wanted = options%first_substep
     wanted = min(wanted, length)
-    h = wanted / max(speed_at(path, path%start), wanted)
+    h = wanted / max(speed_at(m, path, path%start), wanted)
   end function first_substep
 
   !> The larger of the relative errors of stress, and of the length of strain relative to R: the latter bounds those of
   !> delta and void ratio. Norms keep it independent of the axes.
   pure function relative_error(m, y, y_new, difference) result(error)
     type(material_type), intent(in) :: m
-    real(wp), intent(in) :: y(:), y_new(:), difference(n_stress)
+    real(wp), intent(in) :: y(n_tangent), y_new(n_tangent), difference(n_tangent)
     real(wp) :: error
     error = norm(difference(1:6)) / max(norm(y(1:6)), norm(y_new(1:6)))
     if (m%intergranular) error = max(error, abs(difference(7)) / m%R)
@@ -369,12 +354,12 @@ contains
   !> The error of the influence of the increment on stress, relative to what it will be at the end: relative to what it is
   !> now would not do, because it starts from zero.
   pure function influence_error(y_new, rate, length, difference) result(error)
-    real(wp), intent(in) :: y_new(:), rate(:), length, difference(:)
+    real(wp), intent(in) :: y_new(n_tangent), rate(n_tangent), length, difference(n_tangent)
     real(wp) :: error
     real(wp) :: per_length, at_end
-    per_length = sqrt(squared_size(rate(i_integral + 1:))) / max(rate(i_length), tiny(error))
-    at_end = sqrt(squared_size(y_new(i_integral + 1:))) + max(0.0_wp, length - y_new(i_length)) * per_length
-    error = sqrt(squared_size(difference(i_integral + 1:))) / at_end
+    per_length = sqrt(squared_size(rate(i_integral + 1))) / max(rate(i_length), tiny(error))
+    at_end = sqrt(squared_size(y_new(i_integral + 1))) + max(0.0_wp, length - y_new(i_length)) * per_length
+    error = sqrt(squared_size(difference(i_integral + 1))) / at_end
   end function influence_error
 
   !> Square of the size of an influence: a fourth-order tensor's norm, so that it does not depend on the axes.

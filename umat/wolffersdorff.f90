@@ -22,6 +22,7 @@ module umat_wolffersdorff
     real(wp) :: f_d, F
     real(wp) :: pressure !< -tr(T - p_t 1) [stress]
     real(wp) :: power !< (pressure/h_s)^n
+    real(wp) :: e_d, e_i !< limiting void ratios at this pressure
   end type hypoplastic_type
 
   !> Derivatives of the scalars in L and N, for variations of stress and void ratio.
@@ -55,11 +56,12 @@ contains
     real(wp), intent(in) :: stress(6), void_ratio
     type(hypoplastic_type), intent(out) :: h
     integer, intent(out) :: status
-    real(wp) :: shifted(6), deviatoric(6), shrink, e_d, e_c, e_i
+    real(wp) :: shifted(6), deviatoric(6), shrink, e_c
 
     shifted = stress - m%p_t * unit_tensor
     if (.not. in_domain(m, stress, void_ratio)) then
-      h = hypoplastic_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      h = hypoplastic_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+                           0.0_wp)
       status = status_out_of_domain
       return
     end if
@@ -73,15 +75,15 @@ contains
     ! Limiting void ratios, Bauer's law: theory.md Eq. (6).
     h%power = (h%pressure / m%h_s)**m%n
     shrink = exp(-h%power)
-    e_d = m%e_d0 * shrink
+    h%e_d = m%e_d0 * shrink
     e_c = m%e_c0 * shrink
-    e_i = m%e_i0 * shrink
+    h%e_i = m%e_i0 * shrink
 
     ! f_d is zero at and below e_d: the densest packing does not soften (its continuation would be complex).
     h%f_d = 0.0_wp
-    if (void_ratio > e_d) h%f_d = ((void_ratio - e_d) / (e_c - e_d))**m%alpha
+    if (void_ratio > h%e_d) h%f_d = ((void_ratio - h%e_d) / (e_c - h%e_d))**m%alpha
     ! Eqs. (7) to (9); (pressure/h_s)^(1-n) is (pressure/h_s)/power.
-    h%f_s = m%f_b0 * (1.0_wp + e_i) / e_i * (h%pressure / m%h_s) / h%power * (e_c / void_ratio)**m%beta / &
+    h%f_s = m%f_b0 * (1.0_wp + h%e_i) / h%e_i * (h%pressure / m%h_s) / h%power * (e_c / void_ratio)**m%beta / &
             ddot(h%that, h%that)
 
     h%identity = h%f_s * h%F**2
@@ -115,18 +117,16 @@ contains
     real(wp), intent(in) :: void_ratio
     type(hypoplastic_type), intent(in) :: h
     type(sensitivity_type) :: s
-    real(wp) :: steepness, e_d, e_i
+    real(wp) :: steepness
     ! d e_x/d pressure = -steepness e_x for every limiting void ratio.
     steepness = m%n * h%power / h%pressure
-    e_d = m%e_d0 * exp(-h%power)
-    e_i = m%e_i0 * exp(-h%power)
-    s%log_f_s_pressure = (1.0_wp - m%n) / h%pressure + steepness * (1.0_wp / (1.0_wp + e_i) - m%beta)
+    s%log_f_s_pressure = (1.0_wp - m%n) / h%pressure + steepness * (1.0_wp / (1.0_wp + h%e_i) - m%beta)
     s%log_f_s_that = -2.0_wp * h%that / ddot(h%that, h%that)
     s%log_f_s_e = -m%beta / void_ratio
     s%f_d_pressure = 0.0_wp
     s%f_d_e = 0.0_wp
     if (h%f_d > 0.0_wp) then
-      s%f_d_e = m%alpha * h%f_d / (void_ratio - e_d)
+      s%f_d_e = m%alpha * h%f_d / (void_ratio - h%e_d)
       s%f_d_pressure = s%f_d_e * steepness * void_ratio
     end if
     s%F_that = stress_factor_slope(deviator(h%that))
