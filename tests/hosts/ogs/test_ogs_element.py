@@ -1,0 +1,109 @@
+"""One element in OpenGeoSys, through MGIS, against the element test driver."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from opengeosys import PROGRAM, Run, Start, run, start_of
+from replay import Array, deck, ends_of_steps, norm, relative_difference, run_driver, strain_steps, tensor
+
+TOLERANCE = 1e-6
+
+#: The path of most project files: direction, axial strain and time of its corners.
+PATH = (("compression", -0.01, 1.0), ("extension", -0.008, 1.2))
+
+
+def effective_stress(result: Run) -> Array:
+    """Stress of the host plus the pore pressure that the behaviour keeps."""
+    return result.tensors("sigma") + result.scalars("pore_pressure")[:, None] * [1, 1, 1, 0, 0, 0]
+
+
+def check_homogeneous(result: Run) -> None:
+    """One element: every node tells the same."""
+    sigma = result.fields["sigma"]
+    assert np.abs(sigma - sigma[:, :1]).max() < 1e-6 * np.abs(sigma).max()
+
+
+def compare_replayed(result: Run, start: Start, folder: Path, tolerance: float = TOLERANCE) -> None:
+    """Stress, delta and void ratio of the host are those of the driver on the host's strain path. Wants every step."""
+    check_homogeneous(result)
+    text = deck(start.props, start.stress, start.delta, start.void_ratio, strain_steps(result.tensors("epsilon")[1:]))
+    reference = run_driver(PROGRAM, folder, text)
+    reference = {name: column[ends_of_steps(reference)] for name, column in reference.items()}
+    stress = relative_difference(effective_stress(result)[1:], tensor(reference, "sig"))
+    memory = float(norm(result.tensors("delta")[1:] - tensor(reference, "delta")).max() / start.props[11])
+    void_ratio = float(np.abs(result.scalars("void_ratio")[1:] - reference["void_ratio"]).max())
+    print(f"differences from the driver: stress {stress:.1e}, delta {memory:.1e} R, void ratio {void_ratio:.1e}")
+    assert stress < tolerance
+    assert memory < TOLERANCE
+    assert void_ratio < TOLERANCE
+
+
+def compare(result: Run, start: Start, steps: list[str], folder: Path) -> None:
+    """Effective stress and void ratio at the corners of the path are those of the driver's own test."""
+    check_homogeneous(result)
+    reference = run_driver(PROGRAM, folder, deck(start.props, start.stress, start.delta, start.void_ratio, steps))
+    reference = {name: column[ends_of_steps(reference)] for name, column in reference.items()}
+    corners = [int(np.abs(result.times - time).argmin()) for _, _, time in PATH]
+    assert np.allclose(result.times[corners], [time for _, _, time in PATH])
+    stress = relative_difference(effective_stress(result)[corners], tensor(reference, "sig"))
+    void_ratio = float(np.abs(result.scalars("void_ratio")[corners] - reference["void_ratio"]).max())
+    print(f"differences from the driver's own test: stress {stress:.1e}, void ratio {void_ratio:.1e}")
+    assert stress < TOLERANCE
+    assert void_ratio < TOLERANCE
+
+
+def preset(compression: str, extension: str) -> list[str]:
+    """Steps of the driver along the path by presets along z."""
+    return [
+        f"{{preset: {compression if way == 'compression' else extension}, axis: z, "
+        f"until: {{quantity: eps_zz, value: {end}}}, rows: 1}}"
+        for way, end, _ in PATH
+    ]
+
+
+def test_drained_triaxial(examples: Path, tmp_path: Path) -> None:
+    result, start = run(examples / "drained_triaxial.prj"), start_of(examples / "drained_triaxial.prj")
+    assert np.allclose(result.tensors("sigma")[:, :2], -100, rtol=1e-9)
+    compare(result, start, preset("drained_triaxial_compression", "drained_triaxial_extension"), tmp_path)
+
+
+def test_undrained_triaxial_with_pore_water_in_the_behaviour(examples: Path, tmp_path: Path) -> None:
+    result, start = run(examples / "undrained_triaxial.prj"), start_of(examples / "undrained_triaxial.prj")
+    assert np.allclose(result.tensors("sigma")[:, :2], -100, rtol=1e-7)
+    assert np.ptp(result.scalars("pore_pressure")) > 20
+    compare_replayed(result, start, tmp_path)
+    compare(result, start, preset("undrained_triaxial_compression", "undrained_triaxial_extension"), tmp_path)
+
+
+def test_oedometer(examples: Path, tmp_path: Path) -> None:
+    result, start = run(examples / "oedometer.prj"), start_of(examples / "oedometer.prj")
+    compare_replayed(result, start, tmp_path)
+    compare(result, start, preset("oedometer_loading", "oedometer_unloading"), tmp_path)
+
+
+def test_plane_strain(examples: Path, tmp_path: Path) -> None:
+    result, start = run(examples / "biaxial.prj"), start_of(examples / "biaxial.prj")
+    assert np.allclose(result.tensors("sigma")[:, 0], -100, rtol=1e-9)
+    control = "{{control: {{xx: {{stress_rate: 0}}, yy: {{strain_rate: {rate}}}, zz: {{strain_rate: 0}}}}, "
+    control += "until: {{quantity: eps_yy, value: {end}}}, rows: 1}}"
+    steps = [control.format(rate=-1 if way == "compression" else 1, end=end) for way, end, _ in PATH]
+    compare(result, start, steps, tmp_path)
+
+
+def test_order_of_shear_components(examples: Path, tmp_path: Path) -> None:
+    result, start = run(examples / "general_strain.prj"), start_of(examples / "general_strain.prj")
+    assert len(set(np.round(result.tensors("epsilon")[-1], 6))) == 6  # no two components are alike
+    compare_replayed(result, start, tmp_path)
+
+
+def test_a_refused_step_is_halved_and_goes_through(examples: Path, tmp_path: Path) -> None:
+    result, start = run(examples / "step_cut.prj"), start_of(examples / "step_cut.prj")
+    assert [(step.time, step.refused, step.accepted) for step in result.steps] == [
+        (1.0, True, False),
+        (0.5, False, True),
+        (1.0, False, True),
+    ]
+    assert 2 * result.tensors("epsilon")[-1, 4] == pytest.approx(2.4, rel=1e-9)
+    # The tolerance of 1e-6 of the update is one of each substep; here hundreds of them make one increment.
+    compare_replayed(result, start, tmp_path, tolerance=2e-5)
