@@ -132,7 +132,7 @@ def stack(tables: list[dict[str, Array]]) -> dict[str, Array]:
 
 
 def in_own_order(values: Array) -> Array:
-    """Tensor components xx yy zz xy xz yz from the host's xx yy zz xy yz xz, in the plane xx yy zz xy; one row per time."""
+    """Components xx yy zz xy xz yz from the host's xx yy zz xy yz xz, or xx yy zz xy in the plane; one row per time."""
     full = np.zeros((len(values), 6))
     full[:, : values.shape[1]] = values
     full[:, 4:] = full[:, [5, 4]]
