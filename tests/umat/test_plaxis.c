@@ -123,13 +123,13 @@ static void test_stress_and_stiffness_equal_umat(void **unused) {
     for (int k = 0; k < 36; k++) largest = fmax(largest, fabs(ddsdde[k]));
     for (int k = 0; k < 6; k++) {
       assert_true(fabs(a.sig[k] - state.stress[place[k]]) <= 1e-12 * tensor_norm(stress));
-      assert_true(fabs(a.sig[k] - stress[place[k]]) <= 1e-5 * tensor_norm(stress));
+      assert_true(fabs(a.sig[k] - stress[place[k]]) <= 1e-4 * tensor_norm(stress));
       assert_true(fabs(a.stvar[k] - shear_factor(k) * state.delta[place[k]]) <= 1e-12 * material.R);
       for (int l = 0; l < 6; l++)
         assert_true(fabs(a.d[6 * l + k] - ddsdde[6 * place[l] + place[k]]) <= 1e-12 * largest);
     }
     for (int k = 6; k < 12; k++)
-      if (k != 9) assert_true(fabs(a.stvar[k] - statev[k]) <= 1e-5 * fmax(1.0, fabs(statev[k])));
+      if (k != 9) assert_true(fabs(a.stvar[k] - statev[k]) <= 1e-4 * fmax(1.0, fabs(statev[k])));
     assert_true(a.stvar[13] == 3.0 && a.swp == a.swp0 && a.bulk_w == 0.0 && a.ipl == 0);
   }
   assert_true(compared > 200);
