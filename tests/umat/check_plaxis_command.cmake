@@ -1,0 +1,23 @@
+# The command in docs/plaxis.md that makes a library for PLAXIS names every source file it needs, in the right order.
+file(READ ${DOCUMENT} text)
+string(REGEX MATCH "gfortran -O2 -shared -static -o hypofab64.dll [^`]*" command "${text}")
+if(NOT command)
+  message(FATAL_ERROR "found no command in ${DOCUMENT}")
+endif()
+string(REGEX REPLACE "gfortran -O2 -shared -static -o hypofab64.dll" "" sources "${command}")
+string(REGEX REPLACE "[\\\n ]+" ";" sources "${sources}")
+list(REMOVE_ITEM sources "")
+set(library ${FOLDER}/hypofab_plaxis.so)
+file(MAKE_DIRECTORY ${FOLDER})
+execute_process(COMMAND ${COMPILER} -O0 -fPIC -shared -J${FOLDER} -o ${library} ${sources} WORKING_DIRECTORY ${SOURCES}
+                        COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${NM} --dynamic ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+foreach(symbol user_mod getmodelcount getmodelname getparamcount getparamname getparamunit getstatevarcount
+               getstatevarname getstatevarunit)
+  if(NOT symbols MATCHES " T ${symbol}\n")
+    message(FATAL_ERROR "${library} does not export ${symbol}")
+  endif()
+endforeach()
+if(symbols MATCHES " U __umat_")
+  message(FATAL_ERROR "a module is missing:\n${symbols}")
+endif()
