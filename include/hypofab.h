@@ -202,7 +202,8 @@ typedef struct hypofab_update_report {
  * @param state     in: start; out: end; untouched on failure
  * @param strain    strain increment, six tensor components
  * @param tangent   d stress / d strain increment, 6x6 row-major, acting on tensor components as in
- *                  hypofab_linear_parts; NULL when not wanted. It is the continuum stiffness of the branch at the end.
+ *                  hypofab_linear_parts; NULL when not wanted: the consistent tangent, the derivative of the
+ *                  integrated stress. For a zero increment the stiffness of a reversal, or L for the plain model.
  * @param report    filled, also on failure, unless NULL
  */
 hypofab_status hypofab_update(const hypofab_material *material, const hypofab_update_options *options,

@@ -44,7 +44,9 @@ module umat_update
   !> A stress that falls to this part of its start on a straight path is on its way to zero, which is outside the domain.
   real(wp), parameter :: vanishing = 1.0e-8_wp
   !> Part of the tolerance that one substep may use: errors of many substeps and of later increments add up.
-  real(wp), parameter :: share = 0.1_wp
+  real(wp), parameter :: share = 0.2_wp
+  !> The same for the tangent, whose errors grow along paths on which the stress nearly vanishes.
+  real(wp), parameter :: share_of_tangent = 0.05_wp
 
   !> What is integrated: stress, length of strain done; with the tangent also the integral that delta_influence needs, and
   !> the influence of the increment on stress, (component of eta, component of stress).
@@ -109,7 +111,7 @@ contains
       if (report%branch == branch_reversal) then
         ! delta + turn direction is normal to the direction of strain.
         turn = -ddot(work%delta, direction)
-        call integrate(m, options, branch_reversal, direction, 0.0_wp, min(turn, length), n, work, influence, report, status)
+   call integrate(m, options, branch_reversal, direction, 0.0_wp, min(turn, length), n, work, influence, report, status)
         if (status /= status_ok) return
         if (turn < length) report%branch = branch_loading
       end if
@@ -185,9 +187,10 @@ contains
       report%evaluations = report%evaluations + n_stages - 1
       if (status == status_ok) then
         call combine(difference, k, h * error_weight)
-        error = relative_error(m, y, y_new, difference)
-        if (n == n_tangent) error = max(error, influence_error(y_new, k(:, n_stages), length, difference))
-        error = error / (share * options%tolerance)
+        error = relative_error(m, y, y_new, difference) / share
+        if (n == n_tangent) &
+          error = max(error, influence_error(y_new, k(:, n_stages), length, difference) / share_of_tangent)
+        error = error / options%tolerance
       else
         error = huge(error)
         obstacle = status

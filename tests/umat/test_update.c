@@ -204,27 +204,6 @@ static void test_reversal_is_located(void **unused) {
   assert_true(through.delta[0] < 0.0);
 }
 
-/* The stiffness at the end against differences of short updates in the same branch. */
-static void test_tangent_is_the_continuum_stiffness(void **unused) {
-  (void)unused;
-  random_stream r = {14};
-  for (int i = 0; i < 100; i++) {
-    hypofab_material material = random_material(&r);
-    hypofab_state state = random_state(&r, &material), rate;
-    double strain[6], tangent[36], stress_rate[6];
-    random_direction(&r, strain);
-    for (int k = 0; k < 6; k++) strain[k] *= 1e-6;
-    if (hypofab_update(&material, NULL, &state, strain, tangent, NULL)) continue;
-    /* M D is the stress rate at the end, in the direction of loading. */
-    assert_int_equal(hypofab_rate(&material, &state, strain, &rate, NULL), HYPOFAB_OK);
-    for (int k = 0; k < 6; k++) {
-      stress_rate[k] = 0.0;
-      for (int l = 0; l < 6; l++) stress_rate[k] += tangent[6 * k + l] * strain[l];
-    }
-    assert_true(tensor_distance(stress_rate, rate.stress) < 1e-12 * tensor_norm(rate.stress));
-  }
-}
-
 static void assert_fails(hypofab_state state, const double strain[6], const hypofab_update_options *options,
                          hypofab_status expected) {
   hypofab_material material;
@@ -286,7 +265,6 @@ int main(void) {
       cmocka_unit_test(test_objective),
       cmocka_unit_test(test_void_ratio_and_bound_of_delta),
       cmocka_unit_test(test_reversal_is_located),
-      cmocka_unit_test(test_tangent_is_the_continuum_stiffness),
       cmocka_unit_test(test_failures_leave_the_state_untouched),
       cmocka_unit_test(test_zero_increment_changes_nothing),
   };
