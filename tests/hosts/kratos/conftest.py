@@ -1,4 +1,4 @@
-"""The helpers of both host tests are found beside and above the tests."""
+"""The helpers of all host tests are found above the tests."""
 
 import sys
 from pathlib import Path

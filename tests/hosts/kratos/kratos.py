@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from replay import Array
+from replay import Array, Start
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples" / "fe" / "kratos"
@@ -65,16 +65,6 @@ class Run:
         names = [f"{normal}_{axis}" for axis in ("xx", "yy", "zz")] + [f"{shear}_{axis}" for axis in ("xy", "xz", "yz")]
         scale = np.array([1, 1, 1, factor, factor, factor])
         return np.stack([self.columns.get(name, zero) for name in names], axis=1) * scale
-
-
-@dataclass(repr=False)
-class Start:
-    """Material and state at the start of a parameter file."""
-
-    props: list[float]
-    stress: list[float]  #: xx yy zz xy xz yz
-    delta: Array  #: tensor components
-    void_ratio: float
 
 
 def start_of(parameters: str) -> Start:

@@ -4,13 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kratos import PROGRAM, Run, Start, run, start_of
-from replay import Array, deck, ends_of_steps, norm, relative_difference, run_driver, strain_steps, tensor
+from kratos import PROGRAM, Run, run, start_of
+from replay import Start, differences_from_path, differences_on_host_strain, preset, straight
 
 TOLERANCE = 1e-6
 
-#: The path of table 1 in cube.mdpa: direction, axial strain and time of its corners.
-PATH = (("compression", -0.005, 0.5), ("extension", -0.0045, 0.6), ("compression", -0.0085, 1.0))
+#: Times at the corners of table 1 in cube.mdpa.
+CORNERS = (0.5, 0.6, 1.0)
 
 
 def host(parameters: str, folder: Path) -> Run:
@@ -18,57 +18,18 @@ def host(parameters: str, folder: Path) -> Run:
     return run("run.py", [parameters], folder)
 
 
-def effective_stress(result: Run) -> Array:
-    """STRESS of the UMAT plus the pore pressure in STATEV(8)."""
-    return result.stress + result.statev[:, 7:8] * [1, 1, 1, 0, 0, 0]
-
-
 def compare(result: Run, start: Start, folder: Path) -> None:
     """Stress, delta and void ratio of the host are those of the driver on the host's strain path."""
-    text = deck(start.props, start.stress, start.delta, start.void_ratio, strain_steps(result.strain))
-    reference = run_driver(PROGRAM, folder, text)
-    reference = {name: column[ends_of_steps(reference)] for name, column in reference.items()}
-    assert len(reference["time"]) == len(result.strain)
-    stress = relative_difference(effective_stress(result), tensor(reference, "sig"))
-    delta = result.statev[:, :6] * [1, 1, 1, 0.5, 0.5, 0.5]
-    memory = float(norm(delta - tensor(reference, "delta")).max() / start.props[11])
-    void_ratio = float(np.abs(result.statev[:, 6] - reference["void_ratio"]).max())
-    print(f"differences from the driver: stress {stress:.1e}, delta {memory:.1e} R, void ratio {void_ratio:.1e}")
-    assert stress < TOLERANCE
-    assert memory < TOLERANCE
-    assert void_ratio < TOLERANCE
-
-
-def preset(loading: str, unloading: str) -> list[str]:
-    """Steps of the driver along the path of the tables by presets along z."""
-    names = {"compression": loading, "extension": unloading}
-    return [f"{{preset: {names[way]}, axis: z, {until(end)}}}" for way, end, _ in PATH]
-
-
-def straight(lateral: float) -> list[str]:
-    """Steps of the driver along the path of the tables, with a ratio of lateral to axial strain rate."""
-    steps = []
-    for way, end, _ in PATH:
-        axial = -1.0 if way == "compression" else 1.0
-        side = f"{{strain_rate: {lateral * axial}}}"
-        steps.append(f"{{control: {{xx: {side}, yy: {side}, zz: {{strain_rate: {axial}}}}}, {until(end)}}}")
-    return steps
-
-
-def until(axial_strain: float) -> str:
-    """The end of a step of the driver, without rows in between."""
-    return f"until: {{quantity: eps_zz, value: {axial_strain}}}, rows: 1"
+    differences = differences_on_host_strain(PROGRAM, folder, start, result.strain, result.stress, result.statev)
+    assert max(differences) < TOLERANCE
 
 
 def difference_from(steps: list[str], result: Run, start: Start, folder: Path) -> float:
     """The largest difference of effective stress from a test the driver controls itself, at the corners of the path."""
-    reference = run_driver(PROGRAM, folder, deck(start.props, start.stress, start.delta, start.void_ratio, steps))
-    corners = [int(np.abs(result.columns["time"] - time).argmin()) for _, _, time in PATH]
-    assert np.allclose(result.strain[corners, 2], [end for _, end, _ in PATH])
-    stress = tensor({name: column[ends_of_steps(reference)] for name, column in reference.items()}, "sig")
-    difference = relative_difference(effective_stress(result)[corners], stress)
-    print(f"difference from the driver's own test: {difference:.1e}")
-    return difference
+    rows = [int(np.abs(result.columns["time"] - time).argmin()) for time in CORNERS]
+    return differences_from_path(
+        PROGRAM, folder, start, steps, result.strain[rows], result.stress[rows], result.statev[rows]
+    )
 
 
 def test_drained_triaxial(tmp_path: Path) -> None:

@@ -1,0 +1,74 @@
+"""Running CalculiX on the decks of examples/fe/calculix; its table (.dat) and its list of increments (.sta)."""
+
+import os
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from replay import Array, Start
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLES = ROOT / "examples" / "fe" / "calculix"
+BUILD = Path(os.environ["HYPOFAB_BUILD"])
+PROGRAM = BUILD / "cli" / "hypofab"
+CCX = Path(os.environ["HYPOFAB_CCX"])
+
+
+@dataclass(repr=False)
+class Run:
+    """What a run of the host left, at the first point of the element: one row per increment that converged."""
+
+    time: Array
+    strain: Array  #: tensor components xx yy zz xy xz yz
+    stress: Array  #: the same order; total stress where the UMAT holds pore water
+    statev: Array  #: STATEV(1..13)
+    attempts: list[tuple[int, bool]]  #: per try of an increment: its Newton iterations, and whether it was given up
+    log: str
+
+
+def start_of(model: str) -> Start:
+    """Material and initial state in a model file of examples/fe/calculix."""
+    text = (EXAMPLES / model).read_text()
+
+    def data(keyword: str, lines: int) -> list[float]:
+        after = text[re.search(rf"^\*{re.escape(keyword)}.*\n", text, flags=re.MULTILINE).end() :]
+        return [float(v) for v in ",".join(after.splitlines()[:lines]).split(",")]
+
+    props = data("USER MATERIAL", 2)
+    delta = np.array(data("INITIAL CONDITIONS,TYPE=SOLUTION", 1)[2:]) * [1, 1, 1, 0.5, 0.5, 0.5]
+    return Start(props, data("INITIAL CONDITIONS,TYPE=STRESS", 1)[2:], delta, props[15])
+
+
+def run(deck: str, folder: Path) -> Run:
+    """Run a deck of examples/fe/calculix (its name without .inp) in a copy of that folder."""
+    work = folder / "calculix"
+    shutil.copytree(EXAMPLES, work)
+    (work / "libHYPOFAB.so").symlink_to(BUILD / "umat" / "libhypofab_umat.so")
+    search = os.pathsep.join(filter(None, [str(work), os.environ.get("LD_LIBRARY_PATH")]))
+    environment = {**os.environ, "LD_LIBRARY_PATH": search, "OMP_NUM_THREADS": "1"}
+    done = subprocess.run(
+        [CCX, deck], cwd=work, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600
+    )
+    finished = done.returncode == 0 and "Job finished" in done.stdout
+    end_of_log = "\n".join(done.stdout.splitlines()[-30:])
+    assert finished, f"CalculiX ended with status {done.returncode}:\n{end_of_log}"
+    table = (work / f"{deck}.dat").read_text()
+    time = np.array([float(t) for t in re.findall(r"stresses .* time\s+(\S+)", table)])
+    attempts = re.findall(r"^\s*\d+\s+\d+\s+\d+(U?)\s+(\d+)\s", (work / f"{deck}.sta").read_text(), flags=re.MULTILINE)
+    return Run(
+        time,
+        rows_of_table(table, "strains"),
+        rows_of_table(table, "stresses"),
+        rows_of_table(table, "internal state variables"),
+        [(int(iterations), given_up == "U") for given_up, iterations in attempts],
+        done.stdout,
+    )
+
+
+def rows_of_table(table: str, title: str) -> Array:
+    """The values of the first integration point below each title of that name."""
+    lines = re.findall(rf"^ {title} .*\n\n\s+1\s+1\s+(.*)$", table, flags=re.MULTILINE)
+    return np.array([[float(v) for v in line.split()] for line in lines])
