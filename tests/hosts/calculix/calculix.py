@@ -43,9 +43,11 @@ def start_of(model: str) -> Start:
 
 
 def run(deck: str, folder: Path) -> Run:
-    """Run a deck of examples/fe/calculix (its name without .inp) in a copy of that folder."""
+    """Run a deck (its name without .inp) of examples/fe/calculix or of this folder, in a copy of the former."""
     work = folder / "calculix"
     shutil.copytree(EXAMPLES, work)
+    for extra in Path(__file__).parent.glob("*.inp"):
+        shutil.copy(extra, work)
     (work / "libHYPOFAB.so").symlink_to(BUILD / "umat" / "libhypofab_umat.so")
     search = os.pathsep.join(filter(None, [str(work), os.environ.get("LD_LIBRARY_PATH")]))
     environment = {**os.environ, "LD_LIBRARY_PATH": search, "OMP_NUM_THREADS": "1"}

@@ -70,6 +70,12 @@ def test_plane_strain(tmp_path: Path) -> None:
     assert np.all(result.strain[:, 2] == 0)
 
 
+def test_order_of_shear_components(tmp_path: Path) -> None:
+    result = run("general_shear", tmp_path)
+    assert np.min(np.abs(result.strain[-1, 3:])) > 1e-5  # all three shear strains
+    compare(result, start_of("sand_cube.inp"), tmp_path)
+
+
 def test_a_refused_increment_is_cut_and_goes_through(tmp_path: Path) -> None:
     result, start = run("step_cut", tmp_path), start_of("sand_cube_undrained.inp")
     assert "increment size decrease requested by a material user routine" in result.log
