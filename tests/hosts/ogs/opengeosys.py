@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from replay import PARAMETERS, Array
+from replay import PARAMETERS, Array, Start
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples" / "fe" / "ogs"
@@ -54,16 +54,6 @@ class Run:
     def scalars(self, name: str, node: int = 0) -> Array:
         """A scalar at a node, one per time."""
         return self.fields[name][:, node, 0]
-
-
-@dataclass(repr=False)
-class Start:
-    """Material and state at the start of a project file."""
-
-    props: list[float]
-    stress: list[float]  #: xx yy zz xy xz yz
-    delta: Array  #: tensor components
-    void_ratio: float
 
 
 def prepare(folder: Path) -> None:
