@@ -23,24 +23,23 @@ module umat_host_state
 
 contains
 
-  !> Positions, among 11 22 33 12 13 23, of a host's NTENS components.
-  pure function components(ntens) result(c)
-    integer, intent(in) :: ntens
-    integer :: c(ntens)
-    integer, parameter :: full(6) = [1, 2, 3, 4, 5, 6], plane(3) = [1, 2, 4]
-    if (ntens == 3) then
-      c = plane
-    else
-      c = full(:ntens)
-    end if
-  end function components
+  !> Position, among 11 22 33 12 13 23, of component i of NTENS.
+  pure function place(ntens, i)
+    integer, intent(in) :: ntens, i
+    integer :: place
+    place = i
+    if (ntens == 3 .and. i == 3) place = 4
+  end function place
 
   !> A tensor from a host's components; shear is multiplied by a factor (1/2 for engineering strain).
   pure function tensor_from_host(values, shear_factor) result(t)
     real(wp), intent(in) :: values(:), shear_factor
     real(wp) :: t(6)
+    integer :: i
     t = 0.0_wp
-    t(components(size(values))) = values
+    do i = 1, size(values)
+      t(place(size(values), i)) = values(i)
+    end do
     t(4:6) = shear_factor * t(4:6)
   end function tensor_from_host
 
@@ -102,7 +101,10 @@ contains
   pure subroutine pack_stress(total, stress)
     real(wp), intent(in) :: total(6)
     real(c_double), intent(out) :: stress(:)
-    stress = real(total(components(size(stress))), c_double)
+    integer :: i
+    do i = 1, size(stress)
+      stress(i) = real(total(place(size(stress), i)), c_double)
+    end do
   end subroutine pack_stress
 
   !> State variables to the host.
@@ -128,12 +130,16 @@ contains
     real(wp), intent(in) :: tangent(6, 6)
     real(c_double), intent(out) :: ddsdde(:, :)
     real(wp) :: total(6, 6)
-    integer :: c(size(ddsdde, 1))
-    c = components(size(ddsdde, 1))
+    integer :: n, i, j
     total = tangent
     total(:, 4:6) = 0.5_wp * total(:, 4:6)
     total(1:3, 1:3) = total(1:3, 1:3) + m%K_w
-    ddsdde = real(total(c, c), c_double)
+    n = size(ddsdde, 1)
+    do j = 1, n
+      do i = 1, n
+        ddsdde(i, j) = real(total(place(n, i), place(n, j)), c_double)
+      end do
+    end do
   end subroutine pack_tangent
 
   !> From 11 22 33 12 23 13, the order of Abaqus/Explicit and PLAXIS, to 11 22 33 12 13 23, and back.
