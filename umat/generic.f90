@@ -227,8 +227,12 @@ contains
     K = reshape(transpose(ddsdde(:n, :n)), [n * n])
   end function operator_to_host
 
-  !> Speed of the fastest wave, for the time step of explicit hosts: sqrt(M/density) with M above the stiffness of any wave
-  !> and direction. L has max n.(L:nn).n = identity + dyad That_max^2; strain reversal multiplies it by m_R, and N adds to it.
+  !> A bound of the speed of waves, for the time step of explicit hosts: sqrt(M/density), M above X:E:X of every branch's
+  !> stiffness E for X = sym(n m) with any unit vectors n, m.
+  !>
+  !> |X| <= 1, That:X <= t, the largest principal value of That, and (That:d)(d:X) <= (That:X + |That|)/2 for any unit
+  !> tensor d. So X:(L:d)(d:X) <= identity + dyad t (t + |That|)/2, which also bounds X:L:X; theory.md Eq. (13) has at
+  !> most max(1, m_R, m_T) of it, and N adds at most |N|.
   !> @param density pointer to the mass density
   !> @param speed   [sqrt(stress/density)]
   !> @param status  status_bad_state without a positive density
@@ -240,7 +244,7 @@ contains
     integer, intent(out) :: status
     real(c_double), pointer :: rho
     type(hypoplastic_type) :: h
-    real(wp) :: factor
+    real(wp) :: factor, t
 
     speed = 0.0_wp
     status = status_bad_state
@@ -251,7 +255,8 @@ contains
     if (status /= status_ok) return
     factor = 1.0_wp
     if (m%intergranular) factor = max(factor, m%m_R, m%m_T)
-    speed = sqrt((factor * (h%identity + h%dyad * maxval(principal_values(h%that))**2) + norm(h%N) + m%K_w) / rho)
+    t = maxval(principal_values(h%that))
+    speed = sqrt((factor * (h%identity + h%dyad * t * 0.5_wp * (t + norm(h%that))) + norm(h%N) + m%K_w) / rho)
   end subroutine wave_speed
 
   !> Ask for a smaller step and say why.
