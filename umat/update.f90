@@ -16,6 +16,7 @@ module umat_update
   use umat_rate, only: state_type, rate_of_stress, choose_branch, continuum_stiffness
   use umat_status, only: status_ok, status_out_of_domain, status_step_limit, status_bad_state, status_bad_argument, &
                          branch_plain, branch_loading, branch_reversal
+  use umat_tableau, only: n_stages, c, a, error_weight, share, vanishing, largest_increment, substep_of_R, plain_substep
   use umat_tensor, only: ddot, norm, trace, unit_tensor, multiplicity
   use umat_variation, only: vary_rate_of_stress
   use umat_wolffersdorff, only: in_domain
@@ -37,15 +38,9 @@ module umat_update
     real(wp) :: substep = 0.0_wp !< |strain| that the error control suggests for the next substep; 0: none was made
   end type report_type
 
-  !> Largest strain increment accepted: beyond it a small strain increment has no meaning.
-  real(wp), parameter :: largest_increment = 1.0_wp
   !> A smaller fraction of the increment than this is not tried.
   real(wp), parameter :: smallest_substep = 1.0e-10_wp
-  !> A stress that falls to this part of its start on a straight path is on its way to zero, which is outside the domain.
-  real(wp), parameter :: vanishing = 1.0e-8_wp
-  !> Part of the tolerance that one substep may use: errors of many substeps and of later increments add up.
-  real(wp), parameter :: share = 0.2_wp
-  !> The same for the tangent, whose errors grow along paths on which the stress nearly vanishes.
+  !> share for the tangent, whose errors grow along paths on which the stress nearly vanishes.
   real(wp), parameter :: share_of_tangent = 0.05_wp
 
   !> What is integrated: stress, length of strain done; with the tangent also the integral that delta_influence needs, and
@@ -53,23 +48,6 @@ module umat_update
   integer, parameter :: n_stress = 7, i_length = 7, i_integral = 8, n_tangent = 44
   !> An increment shorter than this has the stiffness of its branch as its tangent, to rounding.
   real(wp), parameter :: shortest_tangent = 1.0e-14_wp
-
-  !> Dormand and Prince (1980), Table 2: nodes, weights of the stages, of the step and of its error.
-  integer, parameter :: n_stages = 7
-  real(wp), parameter :: c(n_stages) = [0.0_wp, 1.0_wp / 5.0_wp, 3.0_wp / 10.0_wp, 4.0_wp / 5.0_wp, 8.0_wp / 9.0_wp, &
-                                        1.0_wp, 1.0_wp]
-  real(wp), parameter :: a(6, n_stages) = reshape([ &
-    0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-    1.0_wp / 5.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-    3.0_wp / 40.0_wp, 9.0_wp / 40.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-    44.0_wp / 45.0_wp, -56.0_wp / 15.0_wp, 32.0_wp / 9.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-    19372.0_wp / 6561.0_wp, -25360.0_wp / 2187.0_wp, 64448.0_wp / 6561.0_wp, -212.0_wp / 729.0_wp, 0.0_wp, 0.0_wp, &
-    9017.0_wp / 3168.0_wp, -355.0_wp / 33.0_wp, 46732.0_wp / 5247.0_wp, 49.0_wp / 176.0_wp, -5103.0_wp / 18656.0_wp, 0.0_wp, &
-    35.0_wp / 384.0_wp, 0.0_wp, 500.0_wp / 1113.0_wp, 125.0_wp / 192.0_wp, -2187.0_wp / 6784.0_wp, 11.0_wp / 84.0_wp], &
-    [6, n_stages])
-  real(wp), parameter :: error_weight(n_stages) = [71.0_wp / 57600.0_wp, 0.0_wp, -71.0_wp / 16695.0_wp, &
-                                                   71.0_wp / 1920.0_wp, -17253.0_wp / 339200.0_wp, 22.0_wp / 525.0_wp, &
-                                                   -1.0_wp / 40.0_wp]
 
 contains
 
@@ -337,8 +315,8 @@ contains
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: length
     real(wp) :: h, wanted
-    wanted = 1.0e-4_wp
-    if (m%intergranular) wanted = 0.5_wp * m%R
+    wanted = plain_substep
+    if (m%intergranular) wanted = substep_of_R * m%R
     if (options%first_substep > 0.0_wp) wanted = options%first_substep
     wanted = min(wanted, length)
     h = wanted / max(speed_at(m, path, path%start), wanted)
