@@ -1,6 +1,6 @@
 !> UMAT and VUMAT as Abaqus links them: external procedures, whose symbols the user's compiler names as Abaqus expects.
 !>
-!> Not part of any library here, where the names are umat_ and vumat_ on every system. cmake/abaqus_source.cmake puts this
+!> Not part of any library here, where the names are umat_ and vumat_ on every system. cmake/single_source.cmake puts this
 !> file behind the modules, in the one source file for `abaqus job=... user=...`. Arguments are described in umat.f90 and
 !> vumat.f90; those that are never read are not handed on.
 
