@@ -31,6 +31,10 @@ module umat_plaxis
   integer, parameter :: task_initialise = 1, task_stress = 2, task_stiffness = 3, task_count = 4, task_attributes = 5
   integer, parameter :: task_elastic = 6
 
+  !> Relative error of an increment. Below the default, because errors of hundreds of increments add up and the stress
+  !> comes without the stiffness here, whose error control makes the steps of the UMAT shorter.
+  real(wp), parameter :: tolerance = 2.5e-7_wp
+
   !> A point as PLAXIS hands it over, in the components of the UMAT.
   type :: point_type
     type(material_type) :: m !< drained
@@ -168,7 +172,7 @@ contains
     integer :: status
 
     strain = strain_of(deps)
-    options%first_substep = point%statev(sv_substep)
+    options = options_type(tolerance=tolerance, first_substep=point%statev(sv_substep))
     call update_state(point%m, options, point%state, strain, report, status)
     stvar = stvar0
     if (status /= status_ok) then
