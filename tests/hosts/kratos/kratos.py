@@ -86,16 +86,16 @@ def run(
     script: Path | str,
     arguments: list[str],
     folder: Path,
-    edit: dict[str, tuple[str, str]] | None = None,
+    edit: list[tuple[str, str, str]] | None = None,
     before: str = "",
 ) -> Run:
     """Run a Python script of the host in a copy of examples/fe/kratos; the last argument, added here, names its table.
 
-    edit: file name -> text to replace, and by what; before: a script to run first.
+    edit: file name, text to replace, and by what; before: a script to run first.
     """
     work = folder / "kratos"
     shutil.copytree(EXAMPLES, work)
-    for name, (old, new) in (edit or {}).items():
+    for name, old, new in edit or []:
         text = (work / name).read_text()
         assert old in text
         (work / name).write_text(text.replace(old, new))
