@@ -10,7 +10,8 @@ add_library(hypofab_flags INTERFACE)
 target_compile_options(
   hypofab_flags
   INTERFACE $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra>
-            $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -fimplicit-none -Wall -Wextra -ffree-line-length-none>
+            # -frecursive: every local variable on the stack, as Fortran 2018 has it; threads call the UMAT at once.
+            $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -frecursive -fimplicit-none -Wall -Wextra -ffree-line-length-none>
             # Traps for what the model must never do; the host of a UMAT may run with them.
             $<$<AND:$<CONFIG:Debug>,$<COMPILE_LANGUAGE:Fortran>>:-fcheck=all -ffpe-trap=invalid -fbacktrace>)
 

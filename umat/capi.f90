@@ -243,7 +243,7 @@ contains
     case (status_bad_argument)
       status = fail(status, 'strain increment is not finite or above 1, expected six finite numbers up to 1')
     case (status_bad_state)
-      status = fail(status, 'state is not finite, expected finite stress, delta and void_ratio')
+      status = fail(status, 'state is not finite or has |delta| > R, expected finite stress, delta and void_ratio')
     case (status_step_limit)
       status = fail(status, 'the bound on rate evaluations was reached before the end of the strain increment')
     case default

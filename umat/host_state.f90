@@ -8,6 +8,7 @@ module umat_host_state
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_rate, only: state_type
+  use umat_status, only: status_ok, status_bad_argument
   use umat_tensor, only: norm, rotate, trace, friction_angle, unit_tensor
   use umat_update, only: report_type
   implicit none
@@ -66,9 +67,10 @@ contains
     state%delta = 0.0_wp
     if (m%intergranular) then
       state%delta = [statev(sv_delta:sv_delta + 2), 0.5_wp * statev(sv_delta + 3:sv_delta + 5)]
-      ! |delta| = R is the bound of the model; rounding or a host's mapping may push it over.
+      ! |delta| = R is the bound of the model; rounding or a host's mapping may push it over. What is far beyond was never
+      ! an intergranular strain: it stays, and the update refuses it.
       size_of_delta = norm(state%delta)
-      if (size_of_delta > m%R) state%delta = state%delta * (m%R / size_of_delta)
+      if (size_of_delta > m%R .and. size_of_delta < 2.0_wp * m%R) state%delta = state%delta * (m%R / size_of_delta)
     end if
 
     state%void_ratio = statev(sv_void_ratio)
@@ -91,10 +93,18 @@ contains
   end function initial_void_ratio
 
   !> delta is the UMAT's own to turn with the material; hosts turn STRESS themselves.
-  pure subroutine turn_delta(drot, state)
+  !> @param status status_ok, or status_bad_argument when drot is not a rotation
+  pure subroutine turn_delta(drot, state, status)
     real(wp), intent(in) :: drot(3, 3)
     type(state_type), intent(inout) :: state
-    if (all(ieee_is_finite(drot))) state%delta = rotate(state%delta, drot)
+    integer, intent(out) :: status
+    real(wp), parameter :: unit(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1] * 1.0_wp, [3, 3]), slack = 1.0e-3_wp
+    status = status_bad_argument
+    if (.not. all(ieee_is_finite(drot))) return
+    if (any(abs(drot) > 1.0_wp + slack)) return
+    if (any(abs(matmul(drot, transpose(drot)) - unit) > slack)) return
+    state%delta = rotate(state%delta, drot)
+    status = status_ok
   end subroutine turn_delta
 
   !> Total stress to the host.

@@ -38,6 +38,8 @@ module umat_update
     real(wp) :: substep = 0.0_wp !< |strain| that the error control suggests for the next substep; 0: none was made
   end type report_type
 
+  !> |delta| may exceed R by this part, from rounding.
+  real(wp), parameter :: slack = 1.0e-6_wp
   !> A smaller fraction of the increment than this is not tried.
   real(wp), parameter :: smallest_substep = 1.0e-10_wp
   !> share for the tangent, whose errors grow along paths on which the stress nearly vanishes.
@@ -57,8 +59,8 @@ contains
   !> @param state   in: start, out: end; untouched on failure
   !> @param strain  strain increment, tensor components
   !> @param report  filled, also on failure
-  !> @param status  status_ok; status_bad_state or status_bad_argument for input that is not finite or outside the
-  !>                model's domain; status_out_of_domain when the path leaves it; status_step_limit
+  !> @param status  status_ok; status_bad_state or status_bad_argument for input that is not finite, |delta| > R
+  !>                or a strain increment above 1; status_out_of_domain when the path leaves it; status_step_limit
   !> @param tangent d stress/d strain increment, the derivative of the integrated stress; for a vanishing increment the
   !>                continuum stiffness of a reversal, or L without intergranular strain. Matrix on tensor components
   !>                [stress]
@@ -119,6 +121,9 @@ contains
     status = status_bad_state
     if (.not. (all(ieee_is_finite(state%stress)) .and. all(ieee_is_finite(state%delta)))) return
     if (.not. ieee_is_finite(state%void_ratio)) return
+    if (m%intergranular) then
+      if (norm(state%delta) > (1.0_wp + slack) * m%R) return
+    end if
     status = status_out_of_domain
     if (.not. in_domain(m, state%stress, state%void_ratio)) return
     status = status_ok
@@ -317,7 +322,8 @@ contains
     real(wp) :: h, wanted
     wanted = plain_substep
     if (m%intergranular) wanted = substep_of_R * m%R
-    if (options%first_substep > 0.0_wp) wanted = options%first_substep
+    ! A suggestion from outside is taken, but not one that would only waste work.
+    if (options%first_substep > 0.0_wp) wanted = max(options%first_substep, 1.0e-3_wp * wanted)
     wanted = min(wanted, length)
     h = wanted / max(speed_at(m, path, path%start), wanted)
   end function first_substep

@@ -5,6 +5,7 @@
 #include "hypofab.h"
 #include "support/states.h"
 #include "support/tensors.h"
+#include "umat_call.h"
 
 /* clang-format off */
 #include <setjmp.h>
@@ -13,22 +14,9 @@
 #include <cmocka.h>
 /* clang-format on */
 
-extern void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
-                  double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran,
-                  const double *time, const double *dtime, const double *temp, const double *dtemp,
-                  const double *predef, const double *dpred, const char *cmname, const int *ndi, const int *nshr,
-                  const int *ntens, const int *nstatv, const double *props, const int *nprops, const double *coords,
-                  const double *drot, double *pnewdt, const double *celent, const double *dfgrd0, const double *dfgrd1,
-                  const int *noel, const int *npt, const int *layer, const int *kspt, const int *kstep,
-                  const int *kinc);
-
-/* A call with what every host passes and null pointers for the rest, as Kratos does. */
 static void call(int ntens, double *stress, double *statev, double *ddsdde, const double *dstran, const double *props,
                  const double *drot, double *pnewdt) {
-  const int ndi = ntens == 3 ? 2 : 3, nshr = ntens - ndi, nstatv = 13, nprops = 16;
-  umat_(stress, statev, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, dstran, NULL, NULL, NULL, NULL, NULL,
-        NULL, NULL, &ndi, &nshr, &ntens, &nstatv, props, &nprops, NULL, drot, pnewdt, NULL, NULL, NULL, NULL, NULL,
-        NULL, NULL, NULL, NULL);
+  umat_call(ntens, 13, 16, stress, statev, ddsdde, dstran, props, drot, pnewdt);
 }
 
 static void props_of(const hypofab_material *material, double e_0, double props[16]) {

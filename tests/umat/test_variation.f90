@@ -38,6 +38,7 @@ program test_variation
       if (.not. worst < bound) failures = failures + 1
     end do
   end do
+  deallocate (seed)
   if (failures > 0) error stop 'a derivative of the rate is wrong'
   write (*, '(a)') 'all derivatives agree'
 
