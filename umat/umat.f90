@@ -48,18 +48,18 @@ contains
 
     status = status_bad_argument
     if (any(ntens == [3, 4, 6]) .and. nstatv >= n_statev .and. nprops >= n_parameters) then
-      call check_props(real(props(:n_parameters), wp), status, message)
+      call check_props(props(:n_parameters), status, message)
       ! Hosts do pass NaN; nothing is computed with it, so that nothing traps.
       if (.not. (all(ieee_is_finite(stress)) .and. all(ieee_is_finite(statev(:n_statev))) .and. &
                  all(ieee_is_finite(dstran)))) status = status_bad_argument
     end if
     if (status == status_ok) then
-      m = material_from_props(real(props(:n_parameters), wp))
-      call unpack_state(m, real(stress, wp), real(statev(:n_statev), wp), state, pore_pressure)
-      if (present(drot)) call turn_delta(real(drot, wp), state, status)
+      m = material_from_props(props(:n_parameters))
+      call unpack_state(m, stress, statev(:n_statev), state, pore_pressure)
+      if (present(drot)) call turn_delta(drot, state, status)
     end if
     if (status == status_ok) then
-      strain = tensor_from_host(real(dstran, wp), 0.5_wp)
+      strain = tensor_from_host(dstran, 0.5_wp)
       call update_state(m, options_type(first_substep=statev(sv_substep)), state, strain, report, status, tangent)
     end if
     if (status /= status_ok) then

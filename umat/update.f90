@@ -169,7 +169,7 @@ contains
       call step(x, y, k, h, y_new, status)
       report%evaluations = report%evaluations + n_stages - 1
       if (status == status_ok) then
-        call combine(difference, k, h * error_weight)
+        call combine(difference, k, h, error_weight, n_stages)
         error = relative_error(m, y, y_new, difference) / share
         if (n == n_tangent) &
           error = max(error, influence_error(y_new, k(:, n_stages), length, difference) / share_of_tangent)
@@ -213,21 +213,22 @@ contains
       integer, intent(out) :: status
       integer :: i
       do i = 2, n_stages
-        call combine(y_new, k, h * a(:i - 1, i))
+        call combine(y_new, k, h, a(:, i), i - 1)
         y_new(:n) = y(:n) + y_new(:n)
         call evaluate(x + c(i) * h, y_new, k(:, i), status)
         if (status /= status_ok) return
       end do
     end subroutine step
 
-    !> The sum of the leading stages, weighted.
-    pure subroutine combine(total, k, weights)
+    !> h times the weighted sum of the first stages. Written without temporary arrays, which would be allocated.
+    pure subroutine combine(total, k, h, weights, count)
       real(wp), intent(out) :: total(n_tangent)
-      real(wp), intent(in) :: k(n_tangent, n_stages), weights(:)
+      real(wp), intent(in) :: k(n_tangent, n_stages), h, weights(*)
+      integer, intent(in) :: count
       integer :: j
-      total(:n) = weights(1) * k(:n, 1)
-      do j = 2, size(weights)
-        total(:n) = total(:n) + weights(j) * k(:n, j)
+      total(:n) = (h * weights(1)) * k(:n, 1)
+      do j = 2, count
+        total(:n) = total(:n) + (h * weights(j)) * k(:n, j)
       end do
     end subroutine combine
 
