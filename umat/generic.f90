@@ -6,10 +6,12 @@
 !> come in Mandel's notation, 11 22 33 and sqrt(2) times 12 13 23, of which the plane hypotheses have the first four and the
 !> last one the first three. Material properties are PROPS(1..16) of the UMAT. Internal state variables are the
 !> intergranular strain and STATEV(7..13) of the UMAT. Stress is total stress, tension positive, as in the UMAT.
+!>
+!> Loops stand where array expressions would be shorter: those of a length unknown to the compiler allocate memory.
 module umat_generic
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
-  use umat_host_state, only: n_statev, sv_delta, sv_void_ratio, sv_substep, unpack_state, pack_statev, pack_tangent
+  use umat_host_state, only: n_statev, sv_void_ratio, sv_substep, unpack_state, pack_statev, pack_tangent
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, check_props, n_parameters
   use umat_rate, only: state_type, continuum_stiffness
@@ -59,6 +61,8 @@ module umat_generic
   integer, parameter :: success = 1, failure = -1
   integer, parameter :: message_length = 512
   real(wp), parameter :: sqrt2 = sqrt(2.0_wp)
+  !> Components in Mandel's notation over tensor components.
+  real(wp), parameter :: weight(6) = [1.0_wp, 1.0_wp, 1.0_wp, sqrt2, sqrt2, sqrt2]
 
 contains
 
@@ -112,9 +116,9 @@ contains
     type(material_type) :: m
     type(state_type) :: state
     type(report_type) :: report
-    real(wp) :: statev(n_statev), strain(6), stiffness(6, 6), speed, pore_pressure
+    real(wp) :: statev(n_statev), stress(6), strain(6), stiffness(6, 6), speed, pore_pressure
     character(len=message_length) :: message
-    integer :: status
+    integer :: status, i
 
     call c_f_pointer(d%s0%gradients, start_strain, [n])
     call c_f_pointer(d%s1%gradients, end_strain, [n])
@@ -124,9 +128,10 @@ contains
     call c_f_pointer(d%K, K, [n * n])
 
     outcome = failure
-    call check_props(real(props, wp), status, message)
-    if (status == status_ok .and. .not. all([ieee_is_finite(start_strain), ieee_is_finite(end_strain), &
-                                             ieee_is_finite(start_stress), ieee_is_finite(start_variables)])) then
+    call check_props(props, status, message)
+    if (status == status_ok .and. .not. (all(ieee_is_finite(start_strain)) .and. all(ieee_is_finite(end_strain)) .and. &
+                                         all(ieee_is_finite(start_stress)) .and. &
+                                         all(ieee_is_finite(start_variables)))) then
       status = status_bad_argument
       message = 'strain, stress or state variables are not finite'
     end if
@@ -136,10 +141,14 @@ contains
     end if
 
     request = request_from(K(1))
-    m = material_from_props(real(props, wp))
-    strain = from_mandel(end_strain - start_strain)
+    m = material_from_props(props)
+    strain = 0.0_wp
+    do i = 1, n
+      strain(i) = (end_strain(i) - start_strain(i)) / weight(i)
+    end do
+    stress = from_mandel(start_stress)
     statev = statev_from(start_variables, n)
-    call unpack_state(m, from_mandel(start_stress), statev, state, pore_pressure)
+    call unpack_state(m, stress, statev, state, pore_pressure)
     if (.not. request%prediction) then
       if (request%operator == consistent_operator) then
         call update_state(m, options_type(first_substep=statev(sv_substep)), state, strain, report, status, stiffness)
@@ -156,12 +165,13 @@ contains
       return
     end if
 
-    if (request%operator /= no_operator) K = operator_to_host(m, stiffness, n)
+    if (request%operator /= no_operator) call pack_operator(m, stiffness, n, K)
     if (request%speed_of_sound) call set(d%speed_of_sound, speed)
     if (.not. request%prediction) then
       pore_pressure = pore_pressure - m%K_w * trace(strain) ! as in the UMAT
       call pack_statev(m, state, pore_pressure, report, statev)
-      call pack(d%s1, state%stress - pore_pressure * unit_tensor, statev, n)
+      stress = state%stress - pore_pressure * unit_tensor
+      call pack(d%s1, stress, statev, n)
     end if
     outcome = success
   end function integrate
@@ -184,9 +194,12 @@ contains
   pure function from_mandel(values) result(t)
     real(c_double), intent(in) :: values(:)
     real(wp) :: t(6)
+    integer :: i
     t = 0.0_wp
-    t(:size(values)) = real(values, wp)
-    t(4:6) = t(4:6) / sqrt2
+    do i = 1, size(values)
+      t(i) = values(i)
+    end do
+    t = t / weight
   end function from_mandel
 
   !> STATEV of the UMAT, whose delta has engineering shear, from the internal state variables.
@@ -194,10 +207,14 @@ contains
     real(c_double), intent(in) :: variables(:)
     integer, intent(in) :: n
     real(wp) :: statev(n_statev)
+    integer :: i
     statev = 0.0_wp
-    statev(sv_delta:sv_delta + n - 1) = real(variables(:n), wp)
-    statev(sv_delta + 3:sv_delta + 5) = sqrt2 * statev(sv_delta + 3:sv_delta + 5)
-    statev(sv_void_ratio:) = real(variables(n + 1:), wp)
+    do i = 1, n
+      statev(i) = weight(i) * variables(i) ! sqrt(2) of Mandel and sqrt(2) more: twice the tensor component
+    end do
+    do i = sv_void_ratio, n_statev
+      statev(i) = variables(n + i - sv_void_ratio + 1)
+    end do
   end function statev_from
 
   !> Stress and internal state variables at the end of the step.
@@ -206,26 +223,33 @@ contains
     real(wp), intent(in) :: stress(6), statev(n_statev)
     integer, intent(in) :: n
     real(c_double), pointer :: forces(:), variables(:)
-    real(wp) :: mandel(6)
+    integer :: i
     call c_f_pointer(s1%thermodynamic_forces, forces, [n])
     call c_f_pointer(s1%internal_state_variables, variables, [n + n_statev - 6])
-    mandel = [stress(1:3), sqrt2 * stress(4:6)]
-    forces = real(mandel(:n), c_double)
-    mandel = [statev(sv_delta:sv_delta + 2), statev(sv_delta + 3:sv_delta + 5) / sqrt2]
-    variables = real([mandel(:n), statev(sv_void_ratio:)], c_double)
+    do i = 1, n
+      forces(i) = weight(i) * stress(i)
+      variables(i) = statev(i) / weight(i)
+    end do
+    do i = sv_void_ratio, n_statev
+      variables(n + i - sv_void_ratio + 1) = statev(i)
+    end do
   end subroutine pack
 
   !> The stiffness in Mandel's notation, rows first, pore water included.
-  pure function operator_to_host(m, stiffness, n) result(K)
+  pure subroutine pack_operator(m, stiffness, n, K)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: stiffness(6, 6)
     integer, intent(in) :: n
-    real(c_double) :: K(n * n), ddsdde(6, 6)
+    real(c_double), intent(inout) :: K(:)
+    real(c_double) :: ddsdde(6, 6)
+    integer :: i, j
     call pack_tangent(m, stiffness, ddsdde)
-    ddsdde(4:6, :) = sqrt2 * ddsdde(4:6, :)
-    ddsdde(:, 4:6) = sqrt2 * ddsdde(:, 4:6)
-    K = reshape(transpose(ddsdde(:n, :n)), [n * n])
-  end function operator_to_host
+    do i = 1, n
+      do j = 1, n
+        K(n * (i - 1) + j) = weight(i) * ddsdde(i, j) * weight(j)
+      end do
+    end do
+  end subroutine pack_operator
 
   !> A bound of the speed of waves, for the time step of explicit hosts: sqrt(M/density), M above X:E:X of every branch's
   !> stiffness E for X = sym(n m) with any unit vectors n, m.
