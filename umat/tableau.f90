@@ -12,7 +12,7 @@ module umat_tableau
   !> Part of the tolerance that one substep may use: errors of many substeps and of later increments add up.
   real(wp), parameter :: share = 0.2_wp
   !> First substep: this part of R, in which delta turns; of the plain model this strain.
-  real(wp), parameter :: substep_of_R = 0.5_wp, plain_substep = 1.0e-4_wp
+  real(wp), parameter :: substep_of_R = 0.3_wp, plain_substep = 1.0e-4_wp
 
   !> Dormand and Prince (1980), Table 2: nodes, weights of the stages, of the step and of its error.
   integer, parameter :: n_stages = 7

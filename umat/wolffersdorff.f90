@@ -35,20 +35,20 @@ module umat_wolffersdorff
     real(wp) :: F_that(6) !< d F/d That; zero on the isotropic axis, where F has a cone and the mean of its slopes is zero
   end type sensitivity_type
 
-  !> Beyond this void ratio nothing is a sand; beyond this multiple of h_s -tr T has crushed every limiting void ratio to
+  !> Outside these void ratios nothing is a sand; beyond this multiple of h_s -tr T has crushed every limiting void ratio to
   !> nothing, exp(-10) or less.
-  real(wp), parameter :: largest_void_ratio = 100.0_wp, largest_pressure = 10.0_wp
+  real(wp), parameter :: smallest_void_ratio = 1.0e-3_wp, largest_void_ratio = 100.0_wp, largest_pressure = 10.0_wp
 
 contains
 
-  !> Is a state inside the model's domain: all principal values of T - p_t 1 compressive, void ratio positive, and
-  !> neither of them beyond what the limiting void ratios can express?
+  !> Is a state inside the model's domain: all principal values of T - p_t 1 compressive, void ratio and pressure
+  !> within what the limiting void ratios can express?
   pure function in_domain(m, stress, void_ratio) result(yes)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: stress(6), void_ratio
     logical :: yes
     yes = .false.
-    if (.not. (void_ratio > 0.0_wp .and. void_ratio < largest_void_ratio)) return
+    if (.not. (void_ratio > smallest_void_ratio .and. void_ratio < largest_void_ratio)) return
     if (.not. is_negative_definite(stress - m%p_t * unit_tensor)) return
     yes = 3.0_wp * m%p_t - trace(stress) < largest_pressure * m%h_s
   end function in_domain

@@ -130,6 +130,7 @@ static void test_every_answer_is_finite_or_flagged(void **unused) {
     if (is_flagged) {
       flagged++;
       assert_memory_equal(statev.value, in.statev, (size_t)in.nstatv * sizeof(double));
+      assert_true(all_finite(ddsdde.value, in.ntens * in.ntens));
       if (in.has_pnewdt) assert_memory_equal(stress.value, in.stress, (size_t)in.ntens * sizeof(double));
     } else {
       assert_true(all_finite(stress.value, in.ntens) && all_finite(statev.value, 13));
