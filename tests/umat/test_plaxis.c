@@ -5,6 +5,7 @@
 #include "hypofab.h"
 #include "support/states.h"
 #include "support/tensors.h"
+#include "umat_call.h"
 
 /* clang-format off */
 #include <setjmp.h>
@@ -27,14 +28,6 @@ extern void getparamunit(const int *model, const int *index, char *unit);
 extern void getstatevarcount(const int *model, int *count);
 extern void getstatevarname(const int *model, const int *index, char *name);
 extern void getstatevarunit(const int *model, const int *index, char *unit);
-extern void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
-                  double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran,
-                  const double *time, const double *dtime, const double *temp, const double *dtemp,
-                  const double *predef, const double *dpred, const char *cmname, const int *ndi, const int *nshr,
-                  const int *ntens, const int *nstatv, const double *props, const int *nprops, const double *coords,
-                  const double *drot, double *pnewdt, const double *celent, const double *dfgrd0, const double *dfgrd1,
-                  const int *noel, const int *npt, const int *layer, const int *kspt, const int *kstep,
-                  const int *kinc);
 
 enum { INITIALISE = 1, STRESS, STIFFNESS, COUNT, ATTRIBUTES, ELASTIC, N_STAT = 14 };
 
@@ -109,10 +102,7 @@ static void test_stress_and_stiffness_equal_umat(void **unused) {
     memcpy(stress, state.stress, sizeof stress);
     for (int k = 0; k < 6; k++) statev[k] = shear_factor(k) * state.delta[k], dstran[k] = shear_factor(k) * strain[k];
     statev[6] = state.void_ratio;
-    const int ndi = 3, nshr = 3, ntens = 6, nstatv = 13, nprops = 16;
-    umat_(stress, statev, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, dstran, NULL, NULL, NULL, NULL, NULL,
-          NULL, NULL, &ndi, &nshr, &ntens, &nstatv, props, &nprops, NULL, NULL, &pnewdt, NULL, NULL, NULL, NULL, NULL,
-          NULL, NULL, NULL, NULL);
+    umat_call(6, 13, 16, stress, statev, ddsdde, dstran, props, NULL, &pnewdt);
     if (pnewdt != 1.0) continue;
     compared++;
     const arguments before = a;

@@ -6,6 +6,7 @@
 #include "hypofab.h"
 #include "support/states.h"
 #include "support/tensors.h"
+#include "umat_call.h"
 
 /* clang-format off */
 #include <setjmp.h>
@@ -13,15 +14,6 @@
 #include <stddef.h>
 #include <cmocka.h>
 /* clang-format on */
-
-extern void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
-                  double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran,
-                  const double *time, const double *dtime, const double *temp, const double *dtemp,
-                  const double *predef, const double *dpred, const char *cmname, const int *ndi, const int *nshr,
-                  const int *ntens, const int *nstatv, const double *props, const int *nprops, const double *coords,
-                  const double *drot, double *pnewdt, const double *celent, const double *dfgrd0, const double *dfgrd1,
-                  const int *noel, const int *npt, const int *layer, const int *kspt, const int *kstep,
-                  const int *kinc);
 
 /* Real arrays are of four or eight bytes, as the host pleases. */
 extern void vumat_(const int *nblock, const int *ndir, const int *nshr, const int *nstatev, const int *nfieldv,
@@ -148,7 +140,7 @@ static void fill_point(block *b, int i, random_stream *r, const hypofab_material
 
 /* The same point by umat_. Returns whether the increment was integrated. */
 static int by_umat(const block *b, int i, double stress[6], double statev[13]) {
-  const int ndi = 3, ntens = 3 + b->nshr, nstatv = 13, nprops = 16;
+  const int ntens = 3 + b->nshr;
   double dstran[6], ddsdde[36], props[16], pnewdt = 1.0;
   for (int k = 0; k < 16; k++) props[k] = get(b, PROPS, 0, k);
   for (int k = 0; k < 13; k++) statev[k] = get(b, STATE_OLD, i, k);
@@ -156,9 +148,7 @@ static int by_umat(const block *b, int i, double stress[6], double statev[13]) {
     stress[place[k]] = get(b, STRESS_OLD, i, k);
     dstran[place[k]] = shear_factor(k) * get(b, STRAIN_INC, i, k);
   }
-  umat_(stress, statev, ddsdde, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, dstran, NULL, NULL, NULL, NULL, NULL,
-        NULL, NULL, &ndi, &b->nshr, &ntens, &nstatv, props, &nprops, NULL, NULL, &pnewdt, NULL, NULL, NULL, NULL, NULL,
-        NULL, NULL, NULL, NULL);
+  umat_call(ntens, 13, 16, stress, statev, ddsdde, dstran, props, NULL, &pnewdt);
   return pnewdt == 1.0;
 }
 
