@@ -210,6 +210,49 @@ hypofab_status hypofab_update(const hypofab_material *material, const hypofab_up
                               hypofab_state *state, const double strain[6], double tangent[36],
                               hypofab_update_report *report);
 
+/* ------------------------------------------------------------- many points */
+
+/**
+ * Many material points of one material, as a structure of arrays: component k of point i of a tensor is at
+ * [k * stride + i]. A part of larger arrays is described by addresses inside them and the stride of the whole.
+ */
+typedef struct hypofab_points {
+  size_t count;         /**< number of points */
+  size_t stride;        /**< distance of two components of a tensor, at least count */
+  double *stress;       /**< effective Cauchy stress, 6 components [stress] */
+  double *delta;        /**< intergranular strain, 6 components [-]; NULL allowed for the plain model */
+  double *void_ratio;   /**< one number per point */
+  const double *strain; /**< strain increments, 6 tensor components */
+  int *status;          /**< filled with the hypofab_status of each point, unless NULL */
+} hypofab_points;
+
+/** What a batch did. */
+typedef struct hypofab_batch_report {
+  size_t failed;            /**< points whose update failed */
+  size_t first_failed;      /**< index of the first of them; count if there is none */
+  size_t scalar;            /**< points that were left to the scalar update, failed ones included */
+  int64_t evaluations;      /**< rate evaluations of all points */
+  int threads;              /**< threads asked for, or 1 if the library was built without OpenMP */
+  const char *instructions; /**< "avx512", "avx2" or "portable"; static */
+} hypofab_batch_report;
+
+/**
+ * @brief One strain increment of many points: hypofab_update, vectorised over points and on request threaded.
+ *
+ * Every point gets what hypofab_update gives it, to 1e-10 relative, without tangent. The result of a point depends on
+ * that point alone: it is bitwise the same for any number of threads, any order of the points and any count.
+ * @param material parameters
+ * @param options  NULL for the defaults
+ * @param points   stress, delta and void ratio: in: start; out: end. A point whose update fails is untouched; the
+ * others are updated all the same. The arrays must not overlap.
+ * @param threads  number of OpenMP threads; 0 or 1: none
+ * @param report   filled, unless the arguments are refused or it is NULL
+ * @return the status of the first point that failed; HYPOFAB_BAD_MATERIAL or HYPOFAB_BAD_ARGUMENT, with nothing
+ *         touched, for a bad material, a missing array, a stride below count or a negative number of threads
+ */
+hypofab_status hypofab_update_batch(const hypofab_material *material, const hypofab_update_options *options,
+                                    const hypofab_points *points, int threads, hypofab_batch_report *report);
+
 /** Mobilised friction angle asin((s1 - s3)/(s1 + s3)) of a stress [deg]; 90 where it is not defined. */
 double hypofab_friction_angle(const double stress[6]);
 

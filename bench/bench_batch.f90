@@ -1,0 +1,195 @@
+!> Cost of the update of many points side by side: ns per point and increment, also in scalar rates measured in the same
+!> run, for every instruction set that the processor has; and the error reached.
+!>
+!> Random states of one sand, as in bench_model: delta zero, partial or fully mobilised, random directions of strain. And
+!> the states after ten increments in the same direction, as an explicit code meets them most.
+program bench_batch
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: int64
+  use umat_batch, only: update_group
+  use umat_kinds, only: wp
+  use umat_material, only: material_type, material_from_props
+  use umat_rate, only: state_type, state_rate
+  use umat_sands, only: sands, find_sand
+  use umat_status, only: status_ok
+  use umat_tensor, only: norm, deviator
+  use umat_update, only: options_type, report_type, update_state
+  implicit none
+
+  interface
+    !> umat/batch.c: the best instruction set of this processor
+    function best_instructions() bind(C, name='hypofab_batch_best_instructions')
+      import :: c_int
+      integer(c_int) :: best_instructions
+    end function best_instructions
+  end interface
+
+  integer, parameter :: n_points = 1280, group = 128, n_repeats = 40
+  integer(int64), parameter :: stride = n_points
+  character(len=8), parameter :: names(0:2) = [character(len=8) :: 'portable', 'avx2', 'avx512']
+  real(wp), parameter :: sizes(5) = [1.0e-7_wp, 1.0e-6_wp, 1.0e-5_wp, 1.0e-4_wp, 1.0e-3_wp]
+
+  type :: points_type
+    real(c_double) :: stress(n_points, 6), delta(n_points, 6), void_ratio(n_points)
+  end type points_type
+
+  type(points_type) :: start, worn
+  type(material_type) :: m
+  real(wp) :: directions(n_points, 6), rate_cost
+  integer :: i, set
+
+  m = material_from_props(sands(find_sand('paper000'))%props)
+  call make_points()
+  call time_rates(rate_cost)
+  write (*, '(a, f0.1, a)') 'one scalar rate: ', rate_cost, ' ns'
+  write (*, '(a)') ''
+  write (*, '(a)') '                             ns per point             scalar     stress error (relative)'
+  write (*, '(a)') 'set      states |strain|     and step   in rates     share      median      worst    scalar path, ns'
+  do set = 0, best_instructions()
+    do i = 1, size(sizes)
+      call time_batch(set, 'random', start, sizes(i))
+    end do
+    do i = 1, size(sizes)
+      worn = start
+      call wear(sizes(i))
+      call time_batch(set, 'worn', worn, sizes(i))
+    end do
+  end do
+
+contains
+
+  !> Fill points and directions, the same in every run.
+  subroutine make_points()
+    real(wp) :: u(16), p, s(6)
+    integer :: k, n_seed
+    integer, allocatable :: seed(:)
+    call random_seed(size=n_seed)
+    allocate (seed(n_seed), source=42)
+    call random_seed(put=seed)
+    do k = 1, n_points
+      call random_number(u)
+      p = exp(log(10.0_wp) + u(2) * log(50.0_wp))
+      s = deviator(u(3:8) - 0.5_wp)
+      start%stress(k, :) = -p*[1, 1, 1, 0, 0, 0] + 0.7_wp * u(9) * p * s / norm(s)
+      start%void_ratio(k) = (m%e_d0 + u(10) * (m%e_c0 - m%e_d0)) * exp(-(3.0_wp * p / m%h_s)**m%n) * 1.001_wp
+      call random_number(s)
+      s = s - 0.5_wp
+      start%delta(k, :) = m%R * 0.999999_wp * s / norm(s)
+      if (u(11) < 0.2_wp) start%delta(k, :) = 0.0_wp
+      if (u(11) > 0.6_wp) start%delta(k, :) = u(12) * start%delta(k, :)
+      call random_number(s)
+      s = s - 0.5_wp
+      directions(k, :) = s / norm(s)
+    end do
+  end subroutine make_points
+
+  !> Mean cost of a scalar rate [ns].
+  subroutine time_rates(cost)
+    real(wp), intent(out) :: cost
+    type(state_type) :: rate, states(n_points)
+    real(wp) :: d(6, n_points), sink
+    integer(int64) :: began, ended, ticks
+    integer :: k, j, branch, status
+    do k = 1, n_points
+      states(k) = state_type(start%stress(k, :), start%delta(k, :), start%void_ratio(k))
+      d(:, k) = directions(k, :)
+    end do
+    sink = 0.0_wp
+    call system_clock(began, ticks)
+    do j = 1, 200
+      do k = 1, n_points
+        call state_rate(m, states(k), d(:, k), rate, branch, status)
+        sink = sink + rate%stress(1)
+      end do
+    end do
+    call system_clock(ended)
+    cost = 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / (200 * n_points)
+    if (abs(sink) > huge(sink)) write (*, *) sink ! keeps the loop
+  end subroutine time_rates
+
+  !> Ten increments of the worn points.
+  subroutine wear(length)
+    real(wp), intent(in) :: length
+    integer(c_int64_t) :: evaluations, scalar
+    integer(c_int) :: status(n_points)
+    integer :: k
+    do k = 1, 10
+      call update_all(0, worn, length * directions, status, evaluations, scalar)
+    end do
+  end subroutine wear
+
+  !> All points, group by group.
+  subroutine update_all(set, points, strain, status, evaluations, scalar)
+    integer, intent(in) :: set
+    type(points_type), intent(inout) :: points
+    real(c_double), intent(in) :: strain(n_points, 6)
+    integer(c_int), intent(out) :: status(n_points)
+    integer(c_int64_t), intent(out) :: evaluations, scalar
+    integer :: k
+    evaluations = 0
+    scalar = 0
+    do k = 1, n_points, group
+      call update_group(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
+                        stride, points%stress(k, 1), points%delta(k, 1), points%void_ratio(k), strain(k, 1), &
+                        status(k), evaluations, scalar)
+    end do
+  end subroutine update_all
+
+  !> One line.
+  subroutine time_batch(set, what, points, length)
+    integer, intent(in) :: set
+    character(len=*), intent(in) :: what
+    type(points_type), intent(in) :: points
+    real(wp), intent(in) :: length
+    type(points_type) :: work
+    type(state_type) :: state
+    type(report_type) :: report
+    real(wp) :: best, best_scalar, error(n_points), strain(n_points, 6)
+    integer(c_int64_t) :: evaluations, scalar
+    integer(c_int) :: status(n_points)
+    integer(int64) :: began, ended, ticks
+    integer :: k, j, outcome
+    strain = length * directions
+    best = huge(best)
+    do j = 1, n_repeats
+      work = points
+      call system_clock(began, ticks)
+      call update_all(set, work, strain, status, evaluations, scalar)
+      call system_clock(ended)
+      best = min(best, 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / n_points)
+    end do
+    best_scalar = 0.0_wp
+    do k = 1, n_points
+      state = state_type(points%stress(k, :), points%delta(k, :), points%void_ratio(k))
+      call system_clock(began)
+      call update_state(m, options_type(), state, strain(k, :), report, outcome)
+      call system_clock(ended)
+      best_scalar = best_scalar + 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / n_points
+      state = state_type(points%stress(k, :), points%delta(k, :), points%void_ratio(k))
+      call update_state(m, options_type(tolerance=1.0e-11_wp), state, strain(k, :), report, outcome)
+      error(k) = 0.0_wp
+      if (status(k) == status_ok .and. outcome == status_ok) error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
+    end do
+    write (*, '(a9, a7, es8.1, f13.0, f11.2, f9.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
+      100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
+  end subroutine time_batch
+
+  !> Median, by sorting a copy.
+  pure function median(values) result(middle)
+    real(wp), intent(in) :: values(:)
+    real(wp) :: middle
+    real(wp) :: sorted(size(values)), held
+    integer :: a, b
+    sorted = values
+    do a = 2, size(sorted)
+      held = sorted(a)
+      do b = a - 1, 1, -1
+        if (sorted(b) <= held) exit
+        sorted(b + 1) = sorted(b)
+      end do
+      sorted(b + 1) = held
+    end do
+    middle = sorted((size(sorted) + 1) / 2)
+  end function median
+
+end program bench_batch

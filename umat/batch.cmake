@@ -1,0 +1,45 @@
+# Many points side by side: batch_kernel.F90 once per instruction set, a choice between them at run time, OpenMP on request.
+find_package(OpenMP COMPONENTS C)
+
+add_library(hypofab_batch_lanes OBJECT batch_lanes.f90)
+target_link_libraries(hypofab_batch_lanes PRIVATE hypofab_flags)
+
+# The vectoriser selects where Fortran branches only if selecting traps no exception; parentheses cost it nothing to keep,
+# but it does not look through them.
+set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapping-math -fno-protect-parens)
+
+# add_kernel(NAME OPTION...): the kernel as the module umat_batch_NAME.
+function(add_kernel name)
+  add_library(hypofab_batch_${name} OBJECT batch_kernel.F90)
+  target_compile_definitions(hypofab_batch_${name} PRIVATE HYPOFAB_BATCH_KERNEL=umat_batch_${name})
+  target_compile_options(hypofab_batch_${name} PRIVATE ${kernel_options} ${ARGN})
+  target_link_libraries(hypofab_batch_${name} PRIVATE hypofab_flags)
+  target_sources(hypofab PRIVATE $<TARGET_OBJECTS:hypofab_batch_${name}>)
+endfunction()
+
+add_library(hypofab_batch OBJECT batch.F90)
+target_link_libraries(hypofab_batch PRIVATE hypofab_flags)
+add_kernel(portable)
+set(kernels hypofab_batch_portable)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
+  add_kernel(avx2 -mavx2 -mfma)
+  add_kernel(avx512 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
+  list(APPEND kernels hypofab_batch_avx2 hypofab_batch_avx512)
+  target_compile_definitions(hypofab_batch PRIVATE HYPOFAB_BATCH_X86)
+  target_compile_definitions(hypofab PRIVATE HYPOFAB_BATCH_X86)
+endif()
+
+# Linked for their modules, so that a part is rebuilt when a module it uses changes.
+target_link_libraries(hypofab_batch_lanes PRIVATE hypofab_model)
+foreach(kernel ${kernels})
+  target_link_libraries(${kernel} PRIVATE hypofab_model hypofab_batch_lanes)
+endforeach()
+target_link_libraries(hypofab_batch PRIVATE hypofab_model hypofab_batch_lanes ${kernels})
+foreach(part hypofab_batch_lanes ${kernels} hypofab_batch)
+  set_target_properties(${part} PROPERTIES Fortran_MODULE_DIRECTORY ${CMAKE_BINARY_DIR}/modules)
+endforeach()
+
+target_sources(hypofab PRIVATE $<TARGET_OBJECTS:hypofab_batch_lanes> $<TARGET_OBJECTS:hypofab_batch> batch.c)
+if(OpenMP_C_FOUND)
+  target_link_libraries(hypofab PRIVATE OpenMP::OpenMP_C)
+endif()
