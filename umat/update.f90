@@ -91,7 +91,8 @@ contains
       if (report%branch == branch_reversal) then
         ! delta + turn direction is normal to the direction of strain.
         turn = -ddot(work%delta, direction)
-   call integrate(m, options, branch_reversal, direction, 0.0_wp, min(turn, length), n, work, influence, report, status)
+        call integrate(m, options, branch_reversal, direction, 0.0_wp, min(turn, length), n, work, influence, report, &
+                       status)
         if (status /= status_ok) return
         if (turn < length) report%branch = branch_loading
       end if
