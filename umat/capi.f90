@@ -5,7 +5,7 @@
 module umat_capi
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_ptr, c_loc, c_f_pointer, c_associated, c_null_char
-  use umat_intergranular, only: intergranular_direction, delta_rate
+  use umat_intergranular, only: intergranular_direction, delta_rate, slack_of_delta
   use umat_material, only: material_type, material_from_props, check_props, parameters, parameter_type, n_parameters
   use umat_rate, only: state_type, state_rate, linear_parts
   use umat_sands, only: sands, sand_type, n_sands, find_sand
@@ -133,8 +133,6 @@ contains
     integer(c_int) :: status
     type(material_type) :: m
     character(len=24) :: value, bound
-    ! A hair of rounding above |delta| = R is forgiven.
-    real(c_double), parameter :: slack = 1.0e-9_c_double
 
     status = material_check(props)
     if (status /= status_ok) return
@@ -149,7 +147,7 @@ contains
     else if (.not. in_domain(m, state%stress, state%void_ratio)) then
       status = fail(status_bad_state, 'stress has a tensile or zero principal value, expected all three compressive'// &
                     merge(' (of T - p_t 1)', '               ', m%p_t > 0.0_c_double))
-    else if (m%intergranular .and. norm(state%delta) > m%R * (1.0_c_double + slack)) then
+    else if (m%intergranular .and. norm(state%delta) > slack_of_delta * m%R) then
       write (value, '(g0.6)') norm(state%delta)
       write (bound, '(g0.6)') m%R
       status = fail(status_bad_state, '|delta| = '//trim(value)//' is not admissible, expected |delta| <= R = '// &

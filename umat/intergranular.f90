@@ -16,6 +16,9 @@ module umat_intergranular
   private
   public :: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, delta_rate
 
+  !> |delta| may exceed R by this factor: published tables have three or four digits. Loading draws it back onto R at once.
+  real(wp), parameter, public :: slack_of_delta = 1.001_wp
+
   !> Direction and mobilisation of delta.
   type :: intergranular_type
     real(wp) :: direction(6) !< deltahat; zero for delta = 0

@@ -11,6 +11,7 @@ module umat_update
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use umat_delta_path, only: delta_path_type, delta_path, path_point_type, path_point, delta_of, speed_at, &
                              measures_length, kappa_slope, delta_influence
+  use umat_intergranular, only: slack_of_delta
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_rate, only: state_type, rate_of_stress, choose_branch, continuum_stiffness
@@ -38,8 +39,6 @@ module umat_update
     real(wp) :: substep = 0.0_wp !< |strain| that the error control suggests for the next substep; 0: none was made
   end type report_type
 
-  !> |delta| may exceed R by this part, from rounding.
-  real(wp), parameter :: slack = 1.0e-6_wp
   !> A smaller fraction of the increment than this is not tried.
   real(wp), parameter :: smallest_substep = 1.0e-10_wp
   !> share for the tangent, whose errors grow along paths on which the stress nearly vanishes.
@@ -123,7 +122,7 @@ contains
     if (.not. (all(ieee_is_finite(state%stress)) .and. all(ieee_is_finite(state%delta)))) return
     if (.not. ieee_is_finite(state%void_ratio)) return
     if (m%intergranular) then
-      if (norm(state%delta) > (1.0_wp + slack) * m%R) return
+      if (norm(state%delta) > slack_of_delta * m%R) return
     end if
     status = status_out_of_domain
     if (.not. in_domain(m, state%stress, state%void_ratio)) return
