@@ -186,14 +186,14 @@ subroutine update_group(props, tolerance, max_evaluations, instructions, n, stri
       end do
       void_ratio(k) = lanes(lane, l_e)
       status(k) = status_ok
-      evaluations = evaluations + nint(lanes(lane, l_evaluations), int64)
+      evaluations = evaluations + int(lanes(lane, l_evaluations), int64)
     end subroutine end_segment
 
     !> May a lane take another step here? The scalar update knows why a bound is reached.
     pure function may_go_on(lane) result(yes)
       integer, intent(in) :: lane
       logical :: yes
-      yes = nint(lanes(lane, l_evaluations)) + n_stages <= max_evaluations .and. nint(lanes(lane, l_refused)) <= most_refused
+      yes = lanes(lane, l_evaluations) + n_stages <= max_evaluations .and. lanes(lane, l_refused) <= most_refused
     end function may_go_on
 
     !> A point by the scalar update, from its start.

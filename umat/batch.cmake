@@ -6,7 +6,7 @@ target_link_libraries(hypofab_batch_lanes PRIVATE hypofab_flags)
 
 # The vectoriser selects where Fortran branches only if selecting traps no exception; parentheses cost it nothing to keep,
 # but it does not look through them.
-set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapping-math -fno-protect-parens)
+set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapping-math -fno-protect-parens -fno-tree-pre)
 
 # add_kernel(NAME OPTION...): the kernel as the module umat_batch_NAME.
 function(add_kernel name)
@@ -29,12 +29,18 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_Fortran_COM
   target_compile_definitions(hypofab PRIVATE HYPOFAB_BATCH_X86)
 endif()
 
-# Linked for their modules, so that a part is rebuilt when a module it uses changes.
 target_link_libraries(hypofab_batch_lanes PRIVATE hypofab_model)
 foreach(kernel ${kernels})
   target_link_libraries(${kernel} PRIVATE hypofab_model hypofab_batch_lanes)
 endforeach()
 target_link_libraries(hypofab_batch PRIVATE hypofab_model hypofab_batch_lanes ${kernels})
+# CMake does not see that a part uses modules of another target: rebuild it when their sources change.
+set(used batch_lanes.f90 kinds.F90 status.f90 material.f90 tableau.f90)
+list(TRANSFORM used PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+set_source_files_properties(batch_kernel.F90 PROPERTIES OBJECT_DEPENDS "${used}")
+list(APPEND used ${CMAKE_CURRENT_SOURCE_DIR}/batch_kernel.F90 ${CMAKE_CURRENT_SOURCE_DIR}/rate.f90
+     ${CMAKE_CURRENT_SOURCE_DIR}/update.f90)
+set_source_files_properties(batch.F90 PROPERTIES OBJECT_DEPENDS "${used}")
 foreach(part hypofab_batch_lanes ${kernels} hypofab_batch)
   set_target_properties(${part} PROPERTIES Fortran_MODULE_DIRECTORY ${CMAKE_BINARY_DIR}/modules)
 endforeach()

@@ -104,7 +104,7 @@ contains
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     real(wp) :: begins, straight, plane, axis, unfit !< 1 for yes, 0 for no: the vectoriser has no use for logicals
     real(wp) :: R, beta_r, inverse_R, inverse_beta, u, v, d1, d2, d3, d4, d5, d6, square, ahead, rho_square, log_rho, rho_beta
-    real(wp) :: inverse_v, ratio, x, kappa, power, speed, wanted, scale
+    real(wp) :: inverse_v, ratio, x, kappa, power, exponent, amplitude, speed, wanted, scale
     integer(int64) :: kind
     integer :: i
 
@@ -159,8 +159,11 @@ contains
       kappa = plane * (1.0_wp - rho_beta) * exp(beta_r * log(inverse_v))
       kappa = merge(square, kappa, straight > half)
       power = (axis - plane) * inverse_beta + half * straight
-      speed = exp(min(100.0_wp, (1.0_wp - axis * beta_r) * log_rho))
-      speed = merge(R * speed * merge(inverse_beta, 1.0_wp, axis > half), 1.0_wp, plane + axis > half)
+      exponent = plane + axis * (1.0_wp - beta_r)
+      amplitude = merge(R * merge(inverse_beta, 1.0_wp, axis > half), 1.0_wp, plane + axis > half)
+      speed = amplitude * exp(min(100.0_wp, exponent * log_rho))
+      lanes(i, l_exponent) = chosen(begins, exponent, lanes(i, l_exponent))
+      lanes(i, l_amplitude) = chosen(begins, amplitude, lanes(i, l_amplitude))
       wanted = min(substep_of_R * R, lanes(i, l_length))
       ! For the scalar update: delta longer than R; delta = 0 where the speed has no limit there; a reversal straight back
       ! through delta = 0, after which nothing but rounding tells where the loading starts.
@@ -214,21 +217,23 @@ contains
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     type(node_type) :: nodes(n_stages - 1) !< the last two stages share their node
-    real(wp) :: y(width, 7), k(width, 7, n_stages), to_along(width, n_stages - 1), to_across(width, n_stages - 1), &
-         to_N(width, n_stages - 1), bad(width), last(width), h(width), difference(width, 7), error(width), factor(width)
-    real(wp) :: weight, rho_chi, turning, component, total, before, after, relative, through, speed, size
+    real(wp) :: y(width, 7), k(width, 6, n_stages), to_along(width, n_stages - 1), to_across(width, n_stages - 1), &
+         to_N(width, n_stages - 1), bad(width), last(width), short(width), h(width), total(width, 7), error(width)
+    real(wp) :: rho_chi, turning, component, squares, before, after, relative, through, speed, size
     real(wp) :: going, accepted, lost !< 1 for yes, 0 for no
-    real(wp) :: chi, m_T, m_R, R, per_tolerance, per_R
+    real(wp) :: chi, beta_r, m_T, m_R, R, per_tolerance, per_R
     integer(int64) :: outcome, tag
     integer :: i, j, s, comp
 
     chi = m%chi
+    beta_r = m%beta_r
+    short = 0.0_wp
     m_T = m%m_T
     m_R = m%m_R
     R = m%R
     bad = 0.0_wp
     if (m%intergranular) then
-      call fit_to_length(m, b, lanes, tags, nodes, last, bad)
+      call fit_to_length(m, b, lanes, tags, nodes, last, short, bad)
       do s = 1, n_stages - 1
         !GCC$ ivdep
         do i = 1, width
@@ -261,67 +266,40 @@ contains
     do i = 1, width
       h(i) = lanes(b + i, l_h)
     end do
+    k = 0.0_wp
     do s = 1, n_stages
+      call combine(k, nodes, a(:, s), 0.0_wp, total)
       do comp = 1, 6
         do i = 1, width
-          y(i, comp) = 0.0_wp
-        end do
-        do j = 1, s - 1
-          weight = a(j, s)
-          do i = 1, width
-            y(i, comp) = y(i, comp) + weight * k(i, comp, j)
-          end do
-        end do
-        do i = 1, width
-          y(i, comp) = lanes(b + i, l_stress - 1 + comp) + h(i) * y(i, comp)
+          y(i, comp) = lanes(b + i, l_stress - 1 + comp) + h(i) * total(i, comp)
         end do
       end do
       do i = 1, width
-        y(i, 7) = 0.0_wp
-      end do
-      do j = 1, s - 1
-        weight = a(j, s)
-        do i = 1, width
-          y(i, 7) = y(i, 7) + weight * nodes(min(j, 6))%speed(i)
-        end do
-      end do
-      do i = 1, width
-        y(i, 7) = lanes(b + i, l_done) + h(i) * y(i, 7)
+        y(i, 7) = lanes(b + i, l_done) + h(i) * total(i, 7)
       end do
       j = min(s, n_stages - 1)
       call stress_rate(m, b, lanes, y, to_along(:, j), to_across(:, j), to_N(:, j), k(:, :, s), bad)
     end do
+    call combine(k, nodes, error_weight(:6), error_weight(7), total)
 
-    do comp = 1, 6
-      do i = 1, width
-        difference(i, comp) = 0.0_wp
-      end do
-      do j = 1, n_stages
-        weight = error_weight(j)
+    if (m%intergranular) then
+      do comp = 1, 6
+        !GCC$ ivdep
         do i = 1, width
-          difference(i, comp) = difference(i, comp) + weight * k(i, comp, j)
+          y(i, comp) = y(i, comp) + short(i) / max(nodes(6)%speed(i), nothing) * k(i, comp, 7)
         end do
       end do
-    end do
-    do i = 1, width
-      difference(i, 7) = 0.0_wp
-    end do
-    do j = 1, n_stages
-      weight = error_weight(j)
-      do i = 1, width
-        difference(i, 7) = difference(i, 7) + weight * nodes(min(j, 6))%speed(i)
-      end do
-    end do
+    end if
     per_tolerance = 1.0_wp / (share * tolerance)
     per_R = merge(1.0_wp / m%R, 0.0_wp, m%intergranular)
     !GCC$ ivdep
     do i = 1, width
-      total = difference(i, 1)**2 + difference(i, 2)**2 + difference(i, 3)**2 + &
-              2.0_wp * (difference(i, 4)**2 + difference(i, 5)**2 + difference(i, 6)**2)
+      squares = total(i, 1)**2 + total(i, 2)**2 + total(i, 3)**2 + &
+              2.0_wp * (total(i, 4)**2 + total(i, 5)**2 + total(i, 6)**2)
       before = lanes(b + i, l_stress)**2 + lanes(b + i, l_stress + 1)**2 + lanes(b + i, l_stress + 2)**2 + &
                2.0_wp * (lanes(b + i, l_stress + 3)**2 + lanes(b + i, l_stress + 4)**2 + lanes(b + i, l_stress + 5)**2)
       after = y(i, 1)**2 + y(i, 2)**2 + y(i, 3)**2 + 2.0_wp * (y(i, 4)**2 + y(i, 5)**2 + y(i, 6)**2)
-    relative = h(i) * per_tolerance * max(sqrt(total / max(max(before, after), nothing)), abs(difference(i, 7)) * per_R)
+    relative = h(i) * per_tolerance * max(sqrt(squares / max(max(before, after), nothing)), abs(total(i, 7)) * per_R)
       error(i) = relative
       going = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_going)
       accepted = merge(going, 0.0_wp, relative <= 1.0_wp)
@@ -343,16 +321,18 @@ contains
     if (any(tags(b + 1:b + width, t_outcome) == outcome_going)) then
       !GCC$ ivdep
       do i = 1, width
-        factor(i) = max(0.2_wp, min(5.0_wp, 0.9_wp * exp(-0.2_wp * log(max(error(i), 1.0e-8_wp)))))
-        lanes(b + i, l_h) = merge(h(i) * factor(i), h(i), tags(b + i, t_outcome) == outcome_going)
+        relative = max(0.2_wp, min(5.0_wp, 0.9_wp * exp(-0.2_wp * log(max(error(i), 1.0e-8_wp)))))
+        lanes(b + i, l_h) = h(i) * merge(relative, 1.0_wp, tags(b + i, t_outcome) == outcome_going)
       end do
     end if
     if (m%intergranular) then
       !GCC$ ivdep
       do i = 1, width
-        size = R * exp(nodes(n_stages - 1)%log_rho(i))
-        to_along(i, 1) = size * nodes(n_stages - 1)%along(i)
-        to_across(i, 1) = size * nodes(n_stages - 1)%across(i)
+        ! Where delta ends; Eq. (14) for what the step lacks of the length.
+        size = R * exp(nodes(6)%log_rho(i))
+        turning = exp(beta_r * nodes(6)%log_rho(i)) * nodes(6)%along(i) * short(i)
+        to_along(i, 1) = (size - turning) * nodes(6)%along(i) + short(i)
+        to_across(i, 1) = (size - turning) * nodes(6)%across(i)
       end do
       do comp = 0, 5
         !GCC$ ivdep
@@ -370,6 +350,35 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
     end do
   end subroutine attempt_block
 
+  !> The weighted sum of the stages, and of the speeds at their nodes.
+  !> @param weights of the first six stages
+  !> @param seventh of the last, whose node is the sixth's
+  pure subroutine combine(k, nodes, weights, seventh, total)
+    real(wp), intent(in) :: k(width, 6, n_stages), weights(6), seventh
+    type(node_type), intent(in) :: nodes(n_stages - 1)
+    real(wp), intent(out) :: total(width, 7)
+    real(wp) :: w1, w2, w3, w4, w5, w6
+    integer :: i, comp
+    w1 = weights(1)
+    w2 = weights(2)
+    w3 = weights(3)
+    w4 = weights(4)
+    w5 = weights(5)
+    w6 = weights(6)
+    do comp = 1, 6
+      !GCC$ ivdep
+      do i = 1, width
+        total(i, comp) = w1 * k(i, comp, 1) + w2 * k(i, comp, 2) + w3 * k(i, comp, 3) + w4 * k(i, comp, 4) + &
+                         w5 * k(i, comp, 5) + w6 * k(i, comp, 6) + seventh * k(i, comp, 7)
+      end do
+    end do
+    !GCC$ ivdep
+    do i = 1, width
+     total(i, 7) = w1 * nodes(1)%speed(i) + w2 * nodes(2)%speed(i) + w3 * nodes(3)%speed(i) + w4 * nodes(4)%speed(i) + &
+                    w5 * nodes(5)%speed(i) + (w6 + seventh) * nodes(6)%speed(i)
+    end do
+  end subroutine combine
+
   !> Rates of stress with respect to the path's parameter; theory.md Eqs. (1) to (10), (11) and (13).
   !> @param y         stress, and length of strain done in the segment
   !> @param along, across, to_N the rate is L:(along d + across d_normal) + to_N N
@@ -379,11 +388,12 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
     real(wp), intent(in) :: lanes(n_lanes, n_fields), y(width, 7), along(width), across(width), to_N(width)
-    real(wp), intent(out) :: rate(width, 7)
+    real(wp), intent(out) :: rate(width, 6)
     real(wp), intent(inout) :: bad(width)
-    real(wp) :: e, pressure, inverse, t1, t2, t3, t4, t5, t6, d1, d2, d3, square, cube, on_axis, base, F, log_p, power, shrink, &
-                e_i, density, f_d, f_s, z1, z2, z3, z4, z5, z6, identity, dyad, N, both, of_that
-    real(wp) :: p_t, h_s, exponent, alpha, beta, limit, e_d0, e_c0, e_i0, f_b0, third, largest, inside
+    real(wp) :: e, pressure, inverse, t1, t2, t3, t4, t5, t6, d1, d2, d3, square, cube, on_axis, base, F, log_p, power, growth, &
+                limiting, by_both, density, f_d, f_s, z1, z2, z3, z4, z5, z6, identity, dyad, N, both, of_that
+    real(wp) :: p_t, h_s, inverse_h_s, exponent, alpha, beta, limit, e_d0, e_c0, log_e_c0, inverse_range, f_b0, f_b0_by_e_i, third, &
+                largest, inside
     integer :: i
     p_t = m%p_t
     h_s = m%h_s
@@ -393,8 +403,11 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
     limit = m%a
     e_d0 = m%e_d0
     e_c0 = m%e_c0
-    e_i0 = m%e_i0
+    log_e_c0 = log(e_c0)
+    inverse_range = 1.0_wp / (e_c0 - e_d0)
     f_b0 = m%f_b0
+    f_b0_by_e_i = f_b0 / m%e_i0
+    inverse_h_s = 1.0_wp / h_s
     third = 1.0_wp / 3.0_wp
     largest = largest_pressure * h_s
     !GCC$ ivdep
@@ -423,19 +436,18 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
       cube = 3.0_wp * (d1 * (d2 * d3 - t6 * t6) - t4 * (t4 * d3 - t5 * t6) + t5 * (t4 * t6 - t5 * d2))
       ! F, Eqs. (3) to (5), with sqrt(2) tan(psi) cos(3 theta) = -6 cube/square multiplied out; the axis has none.
       on_axis = merge(1.0_wp, 0.0_wp, square <= 1.0e-60_wp)
-      base = 0.375_wp * square + (2.0_wp - 3.0_wp * square) * (square + on_axis) / &
-             max(2.0_wp * (square + on_axis) - 6.0_wp * cube, nothing)
+      limiting = max(2.0_wp * (square + on_axis) - 6.0_wp * cube, nothing)
+      by_both = 1.0_wp / (limiting * (square + third)) ! one division for two
+      base = 0.375_wp * square + (2.0_wp - 3.0_wp * square) * (square + on_axis) * (by_both * (square + third))
       F = sqrt(max(base, 0.0_wp)) - sqrt(0.375_wp * square)
-      log_p = log(pressure / h_s)
+      log_p = log(pressure * inverse_h_s)
       power = exp(exponent * log_p)
-      shrink = exp(-power)
-      e_i = e_i0 * shrink
-      density = (e - e_d0 * shrink) / ((e_c0 - e_d0) * shrink)
+      growth = exp(power) ! every limiting void ratio is that of p = 0 divided by it
+      density = (e * growth - e_d0) * inverse_range
       f_d = exp(alpha * log(max(density, nothing)))
       f_d = merge(f_d, 0.0_wp, density > nothing)
       ! Eqs. (7) to (9): f_e and the power of pressure in one exponential.
-      f_s = f_b0 * (1.0_wp + e_i) / (e_i * (square + third)) * &
-            exp((1.0_wp - exponent) * log_p + beta * (log(e_c0 / e) - power))
+      f_s = (f_b0 + f_b0_by_e_i * growth) * by_both * limiting * exp((1.0_wp - exponent) * log_p + beta * (log_e_c0 - log(e) - power))
       identity = f_s * F * F
       dyad = f_s * limit * limit
       N = to_N(i) * f_s * f_d * limit * F
@@ -464,51 +476,41 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
     real(wp), intent(in) :: lanes(n_lanes, n_fields), node_at
     integer(int64), intent(in) :: tags(n_lanes, n_tags)
     type(node_type), intent(inout) :: node
-    real(wp) :: x, decay, inverse, sine, rho_beta, argument, log_rho, u, rho, kappa, power, R, beta_r
-    real(wp) :: held_log_rho, held_along, held_across, held_speed
+    real(wp) :: x, decay, inverse, sine, argument, log_rho, u, kappa, beta_r, per_R_squared, held_along, held_across
     integer(int64) :: tag
     integer :: i
-    R = m%R
     beta_r = m%beta_r
+    per_R_squared = 1.0_wp / m%R**2
     !GCC$ ivdep
     do i = 1, width
       tag = tags(b + i, t_kind)
       kappa = lanes(b + i, l_kappa)
-      power = lanes(b + i, l_power)
       x = lanes(b + i, l_x) + node_at * lanes(b + i, l_h)
+      u = lanes(b + i, l_start) + x
       decay = exp(-min(x, largest_x))
       inverse = 1.0_wp / (1.0_wp + decay * decay)
       sine = 2.0_wp * decay * inverse
+      ! rho is a power of this; 1 where delta stays at |delta| = R.
       argument = 1.0_wp + kappa * exp(beta_r * log(sine))
-      log_rho = power * log(merge(argument, 1.0_wp, tag == kind_plane))
-      rho = R * exp(log_rho)
+      argument = merge(argument, merge(1.0_wp - decay, 1.0_wp, tag == kind_axis), tag == kind_plane)
+      argument = merge((kappa + u * u) * per_R_squared, argument, tag == kind_straight)
+      log_rho = lanes(b + i, l_power) * log(max(argument, nothing))
+      log_rho = merge(log_rho, log_of_zero, argument > nothing)
       node%log_rho(i) = log_rho
+      node%speed(i) = lanes(b + i, l_amplitude) * exp(lanes(b + i, l_exponent) * log_rho)
       node%along(i) = merge((1.0_wp - decay * decay) * inverse, 1.0_wp, tag == kind_plane)
       node%across(i) = merge(sine, 0.0_wp, tag == kind_plane)
-      node%speed(i) = merge(rho, 1.0_wp, tag == kind_plane)
     end do
-   if (.not. any(tags(b + 1:b + width, t_kind) == kind_straight .or. tags(b + 1:b + width, t_kind) == kind_axis)) return
+    if (.not. any(tags(b + 1:b + width, t_kind) == kind_straight)) return
     !GCC$ ivdep
     do i = 1, width
       tag = tags(b + i, t_kind)
-      kappa = lanes(b + i, l_kappa)
-      power = lanes(b + i, l_power)
-      held_log_rho = node%log_rho(i)
       held_along = node%along(i)
       held_across = node%across(i)
-      held_speed = node%speed(i)
-      x = lanes(b + i, l_x) + node_at * lanes(b + i, l_h)
-      u = lanes(b + i, l_start) + x
-      rho_beta = 1.0_wp - exp(-min(x, largest_x))
-      argument = merge((kappa + u * u) / (R * R), rho_beta, tag == kind_straight)
-      log_rho = power * log(max(argument, nothing))
-      log_rho = merge(log_rho, log_of_zero, argument > nothing)
-      rho = R * exp(log_rho)
-      inverse = 1.0_wp / merge(max(rho_beta, nothing) * beta_r, max(rho, 1.0e-140_wp), tag == kind_axis)
-      node%log_rho(i) = merge(log_rho, held_log_rho, tag == kind_axis .or. tag == kind_straight)
+      u = lanes(b + i, l_start) + lanes(b + i, l_x) + node_at * lanes(b + i, l_h)
+      inverse = 1.0_wp / sqrt(max(lanes(b + i, l_kappa) + u * u, nothing))
       node%along(i) = merge(u * inverse, held_along, tag == kind_straight)
       node%across(i) = merge(inverse, held_across, tag == kind_straight)
-      node%speed(i) = merge(merge(rho * inverse, 0.0_wp, argument > nothing), held_speed, tag == kind_axis)
     end do
   end subroutine path_node
 
@@ -517,20 +519,23 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
   !> on its neighbours.
   !> @param nodes filled
   !> @param last  1 where the step covers the length, otherwise 0
+  !> @param short length of strain that such a step still lacks, a small part of it that is to be added by the rates at its
+  !>              end; 0 elsewhere [strain]
   !> @param bad   set to 1 where the iteration fails
-  pure subroutine fit_to_length(m, b, lanes, tags, nodes, last, bad)
+  pure subroutine fit_to_length(m, b, lanes, tags, nodes, last, short, bad)
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
     real(wp), intent(inout) :: lanes(n_lanes, n_fields), bad(width)
     integer(int64), intent(in) :: tags(n_lanes, n_tags)
     type(node_type), intent(inout) :: nodes(n_stages - 1)
-    real(wp), intent(out) :: last(width)
-    !> Error of the length that is accepted, relative.
-    real(wp), parameter :: fit = 1.0e-11_wp
+    real(wp), intent(out) :: last(width), short(width)
+    !> What the square of the relative error of the length may bring about: the error itself is made up for.
+    real(wp), parameter :: fit = 1.0e-13_wp
     integer, parameter :: n_passes = 12
     real(wp), parameter :: b1 = a(1, 7), b3 = a(3, 7), b4 = a(4, 7), b5 = a(5, 7), b6 = a(6, 7)
-    real(wp) :: largest(width), lower(width), upper(width), open (width)
-    real(wp) :: length, h, excess, growth, change, quotient, rho_beta, middle, beta_r, on_plane, measures
+    real(wp) :: largest(width), lower(width), upper(width), active(width)
+    real(wp) :: length, h, excess, growth, change, bend, quotient, rho_beta, middle, beta_r, on_plane, measures, fits, &
+                open_here, next, straight_on, below, above
     integer :: i, pass
 
     beta_r = m%beta_r
@@ -546,12 +551,13 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
       lower(i) = 0.0_wp
       upper(i) = 2.0_wp * h
       last(i) = merge(measures, 0.0_wp, h >= length)
-      open (i) = 1.0_wp - measures
+      active(i) = 1.0_wp - measures
+      short(i) = 0.0_wp
       rho_beta = exp(beta_r * nodes(1)%log_rho(i))
-      call growth_of_speed(beta_r, on_plane, rho_beta, nodes(1)%along(i), nodes(1)%across(i), growth, change)
+      call growth_of_speed(beta_r, on_plane, rho_beta, nodes(1)%along(i), nodes(1)%across(i), growth, change, bend)
       quotient = length / max(nodes(1)%speed(i), nothing)
       quotient = merge(quotient, h, abs(growth * quotient) < 1.0_wp)
-      h = min(merge(inverted(quotient, -growth, change), h, quotient < h), h)
+      h = min(merge(inverted(quotient, growth, change, bend), h, quotient < h), h)
       lanes(b + i, l_h) = chosen(measures, min(length, largest(i)), merge(h, largest(i), h > 0.0_wp))
     end do
     do pass = 1, n_passes
@@ -565,24 +571,33 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
         h = lanes(b + i, l_h)
      excess = h * (b1 * nodes(1)%speed(i) + b3 * nodes(3)%speed(i) + b4 * nodes(4)%speed(i) + b5 * nodes(5)%speed(i) + &
                       b6 * nodes(6)%speed(i)) - length
-        last(i) = merge(max(open (i), last(i)), last(i), abs(excess) <= fit * length)
-        open (i) = merge(open (i) * (1.0_wp - last(i)), 0.0_wp, max(largest(i) - h, excess) > 0.0_wp)
-        lower(i) = merge(h, lower(i), excess < 0.0_wp)
-        upper(i) = merge(h, upper(i), excess > 0.0_wp)
-        middle = half * (lower(i) + upper(i))
         on_plane = merge(1.0_wp, 0.0_wp, tags(b + i, t_kind) == kind_plane)
         rho_beta = exp(beta_r * nodes(6)%log_rho(i))
-        call growth_of_speed(beta_r, on_plane, rho_beta, nodes(6)%along(i), nodes(6)%across(i), growth, change)
+        call growth_of_speed(beta_r, on_plane, rho_beta, nodes(6)%along(i), nodes(6)%across(i), growth, change, bend)
         quotient = excess / max(nodes(6)%speed(i), nothing)
-        h = h - merge(inverted(quotient, growth, change), quotient, abs(growth * quotient) < 0.3_wp)
-        h = min(merge(h, middle, min(h - lower(i), upper(i) - h) > 0.0_wp), largest(i))
-        lanes(b + i, l_h) = chosen(open (i), h, lanes(b + i, l_h))
+        next = h + inverted(-quotient, growth, change, bend)
+        straight_on = h - quotient
+        next = merge(next, straight_on, abs(growth * quotient) < 0.3_wp)
+        open_here = active(i)
+        fits = merge(open_here, 0.0_wp, excess**2 * (abs(growth * h) + 0.1_wp) <= fit * length**2)
+        last(i) = max(fits, last(i))
+        short(i) = short(i) - fits * excess
+        active(i) = (open_here - fits) * merge(1.0_wp, 0.0_wp, max(largest(i) - h, excess) > 0.0_wp)
+        below = lower(i)
+        below = merge(h, below, excess < 0.0_wp)
+        above = upper(i)
+        above = merge(h, above, excess > 0.0_wp)
+        lower(i) = below
+        upper(i) = above
+        middle = half * (below + above)
+        next = merge(next, middle, min(next - below, above - next) > 0.0_wp)
+        lanes(b + i, l_h) = h + active(i) * (min(next, largest(i)) - h)
       end do
-      if (.not. any(open > half)) exit
+      if (.not. any(active > half)) exit
     end do
     !GCC$ ivdep
     do i = 1, width
-      bad(i) = max(open (i), merge(1.0_wp, bad(i), lanes(b + i, l_x) + lanes(b + i, l_h) > largest_x))
+      bad(i) = max(active(i), merge(1.0_wp, bad(i), lanes(b + i, l_x) + lanes(b + i, l_h) > largest_x))
     end do
     call path_node(m, b, lanes, tags, c(2), nodes(2))
   end subroutine fit_to_length
@@ -594,23 +609,29 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
     value = merge(yes, no, mask > half)
   end function chosen
 
-  !> d ln(speed)/dx and its derivative.
-  pure subroutine growth_of_speed(beta_r, on_plane, rho_beta, cosine, sine, growth, change)
+  !> d ln(speed)/dx and its first two derivatives.
+  pure subroutine growth_of_speed(beta_r, on_plane, rho_beta, cosine, sine, growth, change, bend)
     real(wp), intent(in) :: beta_r, on_plane, rho_beta, cosine, sine
-    real(wp), intent(out) :: growth, change
+    real(wp), intent(out) :: growth, change, bend
     real(wp) :: left, inverse, on_axis
     left = 1.0_wp - rho_beta
-    inverse = 1.0_wp / max(rho_beta, 1.0e-100_wp)
+    inverse = 1.0_wp / max(rho_beta, 1.0e-90_wp)
     on_axis = (1.0_wp - beta_r) / beta_r * left * inverse
     growth = chosen(on_plane, left * cosine, on_axis)
     change = chosen(on_plane, left * sine**2 - beta_r * rho_beta * growth * cosine, -on_axis * inverse)
+    bend = chosen(on_plane, -beta_r * rho_beta * (beta_r * growth**2 * cosine + change * cosine + 2.0_wp * growth * sine**2) - &
+                  2.0_wp * left * cosine * sine**2, on_axis * inverse * (rho_beta + 2.0_wp * left) * inverse)
   end subroutine growth_of_speed
 
-  !> The h of quotient = h - growth h^2/2 + (growth^2 + change) h^3/6, by its series.
-  pure function inverted(quotient, growth, change) result(h)
-    real(wp), intent(in) :: quotient, growth, change
+  !> The step that covers quotient (length/speed), by the inverse of the series of the length in the step.
+  pure function inverted(quotient, growth, change, bend) result(h)
+    real(wp), intent(in) :: quotient, growth, change, bend
     real(wp) :: h
-    h = quotient * (1.0_wp + quotient * (0.5_wp * growth + quotient * (2.0_wp * growth**2 - change) / 6.0_wp))
+    real(wp) :: a2, a3, a4
+    a2 = half * growth
+    a3 = (growth**2 + change) * (1.0_wp / 6.0_wp)
+    a4 = (growth**3 + 3.0_wp * growth * change + bend) * (1.0_wp / 24.0_wp)
+    h = quotient * (1.0_wp - quotient * (a2 - quotient * (2.0_wp * a2**2 - a3 - quotient * (5.0_wp * a2 * (a2**2 - a3) + a4))))
   end function inverted
 
 end module HYPOFAB_BATCH_KERNEL

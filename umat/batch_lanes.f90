@@ -25,7 +25,8 @@ module umat_batch_lanes
   integer, parameter :: l_trace = 34 !< trace of the direction
   integer, parameter :: l_smallest = 35 !< |stress| below which the path is on its way to zero
   integer, parameter :: l_evaluations = 36, l_refused = 37 !< rate evaluations, steps refused
-  integer, parameter :: n_fields = 37
+  integer, parameter :: l_exponent = 38, l_amplitude = 39 !< the speed of the path is amplitude rho^exponent
+  integer, parameter :: n_fields = 39
 
   !> Tags: kind of path, as in delta_path.f90, and what became of an attempted step. As wide as a field, so that they fill
   !> masks without conversion.
