@@ -43,8 +43,8 @@ program bench_batch
   call time_rates(rate_cost)
   write (*, '(a, f0.1, a)') 'one scalar rate: ', rate_cost, ' ns'
   write (*, '(a)') ''
-  write (*, '(a)') '                             ns per point             scalar     stress error (relative)'
-  write (*, '(a)') 'set      states |strain|     and step   in rates     share      median      worst    scalar path, ns'
+  write (*, '(a)') '                             ns per point              rates per     scalar     stress error (relative)'
+ write (*, '(a)') 'set      states |strain|     and step   in rates  point, step     share      median      worst    scalar path, ns'
   do set = 0, best_instructions()
     do i = 1, size(sizes)
       call time_batch(set, 'random', start, sizes(i))
@@ -129,7 +129,7 @@ contains
     evaluations = 0
     scalar = 0
     do k = 1, n_points, group
-      call update_group(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
+     call update_group(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
                         stride, points%stress(k, 1), points%delta(k, 1), points%void_ratio(k), strain(k, 1), &
                         status(k), evaluations, scalar)
     end do
@@ -170,8 +170,8 @@ contains
       error(k) = 0.0_wp
       if (status(k) == status_ok .and. outcome == status_ok) error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
     end do
-    write (*, '(a9, a7, es8.1, f13.0, f11.2, f9.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
-      100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
+    write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
+      real(evaluations, wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
   end subroutine time_batch
 
   !> Median, by sorting a copy.

@@ -53,8 +53,9 @@ contains
 subroutine update_group(props, tolerance, max_evaluations, instructions, n, stride, stress, delta, void_ratio, strain, &
                           status, evaluations, scalar) bind(C, name='hypofab_update_group')
     real(c_double), intent(in) :: props(n_parameters)
-    real(c_double), value :: tolerance
-    integer(c_int), value :: max_evaluations, instructions, n
+    real(c_double), intent(in) :: tolerance
+    integer(c_int), intent(in) :: max_evaluations
+    integer(c_int), value :: instructions, n
     integer(c_int64_t), value :: stride
     real(c_double), intent(inout) :: stress(stride, 6), void_ratio(stride)
     real(c_double), intent(inout), optional :: delta(stride, 6)
@@ -77,6 +78,10 @@ subroutine update_group(props, tolerance, max_evaluations, instructions, n, stri
     call close_ranks()
     do while (left > 0)
       call step_all()
+      if (all_done()) then
+        call store_all()
+        exit
+      end if
       do i = 1, left
         if (tags(i, t_outcome) == outcome_segment_done) call end_segment(i)
         if (tags(i, t_outcome) == outcome_going .and. .not. may_go_on(i)) tags(i, t_outcome) = outcome_special
@@ -102,7 +107,6 @@ subroutine update_group(props, tolerance, max_evaluations, instructions, n, stri
         if (m%intergranular) lanes(:n, l_delta - 1 + j) = delta(:n, j)
         finite = finite .and. ieee_is_finite(delta(:n, j))
       end do
-      lanes(:n, l_across + 6:) = 0.0_wp
       tags(:n, t_kind) = kind_fixed
       tags(:n, t_outcome) = merge(outcome_begin, outcome_special, finite)
       point(:n) = [(j, j=1, n)]
@@ -167,6 +171,26 @@ subroutine update_group(props, tolerance, max_evaluations, instructions, n, stri
         call attempt_step_portable(m, tolerance, padded(), lanes, tags)
       end select
     end subroutine step_all
+
+    !> Is the increment of every point of the group done, so that no lane has moved?
+    pure function all_done() result(yes)
+      logical :: yes
+      yes = .false.
+      if (left < n) return
+      yes = all(tags(:n, t_outcome) == outcome_segment_done) .and. maxval(lanes(:n, l_rest)) <= 0.0_wp
+    end function all_done
+
+    !> Store every point at once: the common case of small increments.
+    subroutine store_all()
+      integer :: j
+      do j = 1, 6
+        stress(:n, j) = lanes(:n, l_stress - 1 + j)
+        if (m%intergranular) delta(:n, j) = lanes(:n, l_delta - 1 + j)
+      end do
+      void_ratio(:n) = lanes(:n, l_e)
+      status = status_ok
+      evaluations = evaluations + int(sum(lanes(:n, l_evaluations)), int64)
+    end subroutine store_all
 
     !> Loading follows upon a reversal, or the increment is done.
     subroutine end_segment(lane)

@@ -21,8 +21,8 @@ enum { BATCH_GROUP = 128 };
 
 /** Update a group of points by a given instruction set, which the processor must have: batch.F90, which describes it.
  */
-void hypofab_update_group(const hypofab_material *material, double tolerance, int max_evaluations, int instructions,
-                          int n, int64_t stride, double *stress, double *delta, double *void_ratio,
+void hypofab_update_group(const hypofab_material *material, const double *tolerance, const int *max_evaluations,
+                          int instructions, int n, int64_t stride, double *stress, double *delta, double *void_ratio,
                           const double *strain, int *status, int64_t *evaluations, int64_t *scalar);
 
 #endif

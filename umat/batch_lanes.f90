@@ -8,7 +8,7 @@ module umat_batch_lanes
 
   !> Lanes of a group, and lanes that a kernel works on at once: a multiple of the widest vector register. No result
   !> depends on them.
-  integer, parameter :: n_lanes = 128, width = 16
+  integer, parameter :: n_lanes = 136, width = 16
 
   !> Fields. Tensors take six; those of delta and void ratio belong to the start of the present segment, a part of the
   !> increment on one branch.
