@@ -114,6 +114,12 @@ contains
       !GCC$ ivdep
       do i = 1, n
         begins = merge(1.0_wp, 0.0_wp, tags(i, t_outcome) == outcome_begin)
+        lanes(i, l_across) = 0.0_wp
+        lanes(i, l_across + 1) = 0.0_wp
+        lanes(i, l_across + 2) = 0.0_wp
+        lanes(i, l_across + 3) = 0.0_wp
+        lanes(i, l_across + 4) = 0.0_wp
+        lanes(i, l_across + 5) = 0.0_wp
         lanes(i, l_x) = 0.0_wp
         lanes(i, l_h) = chosen(begins, min(plain_substep, lanes(i, l_length)), lanes(i, l_h))
         lanes(i, l_done) = chosen(begins, 0.0_wp, lanes(i, l_done))
