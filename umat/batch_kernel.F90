@@ -20,6 +20,8 @@ module HYPOFAB_BATCH_KERNEL
   real(wp), parameter :: nothing = 1.0e-290_wp
   !> Between the no and the yes of a mask.
   real(wp), parameter :: half = 0.5_wp
+  !> Stands for a speed of zero [strain].
+  real(wp), parameter :: slowest = 1.0e-30_wp
   !> log(rho) of rho = 0: every admissible power of it is zero.
   real(wp), parameter :: log_of_zero = -1.0e7_wp
   !> |v| only decays: what is below rounding now stays there (delta_path.f90).
@@ -158,7 +160,7 @@ contains
       rho_beta = exp(beta_r * log_rho)
       plane = merge(1.0_wp - straight, 0.0_wp, v > negligible)
       axis = merge(1.0_wp - straight - plane, 0.0_wp, rho_beta < 1.0_wp)
-      inverse_v = 1.0_wp / merge(v, 1.0_wp, plane > half)
+      inverse_v = 1.0_wp / max(v, negligible)
       ratio = ahead * inverse_v
       x = log(merge(ratio + sqrt(ratio**2 + 1.0_wp), 1.0_wp / max(1.0_wp - rho_beta, negligible), plane > half))
       x = merge(x, 0.0_wp, plane + axis > half)
@@ -292,7 +294,7 @@ contains
       do comp = 1, 6
         !GCC$ ivdep
         do i = 1, width
-          y(i, comp) = y(i, comp) + short(i) / max(nodes(6)%speed(i), nothing) * k(i, comp, 7)
+          y(i, comp) = y(i, comp) + short(i) / max(nodes(6)%speed(i), slowest) * k(i, comp, 7)
         end do
       end do
     end if
@@ -442,7 +444,7 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
       cube = 3.0_wp * (d1 * (d2 * d3 - t6 * t6) - t4 * (t4 * d3 - t5 * t6) + t5 * (t4 * t6 - t5 * d2))
       ! F, Eqs. (3) to (5), with sqrt(2) tan(psi) cos(3 theta) = -6 cube/square multiplied out; the axis has none.
       on_axis = merge(1.0_wp, 0.0_wp, square <= 1.0e-60_wp)
-      limiting = max(2.0_wp * (square + on_axis) - 6.0_wp * cube, nothing)
+      limiting = chosen(inside, 2.0_wp * (square + on_axis) - 6.0_wp * cube, 1.0_wp) ! positive inside the domain
       by_both = 1.0_wp / (limiting * (square + third)) ! one division for two
       base = 0.375_wp * square + (2.0_wp - 3.0_wp * square) * (square + on_axis) * (by_both * (square + third))
       F = sqrt(max(base, 0.0_wp)) - sqrt(0.375_wp * square)
@@ -561,7 +563,7 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
       short(i) = 0.0_wp
       rho_beta = exp(beta_r * nodes(1)%log_rho(i))
       call growth_of_speed(beta_r, on_plane, rho_beta, nodes(1)%along(i), nodes(1)%across(i), growth, change, bend)
-      quotient = length / max(nodes(1)%speed(i), nothing)
+      quotient = length / max(nodes(1)%speed(i), slowest)
       quotient = merge(quotient, h, abs(growth * quotient) < 1.0_wp)
       h = min(merge(inverted(quotient, growth, change, bend), h, quotient < h), h)
       lanes(b + i, l_h) = chosen(measures, min(length, largest(i)), merge(h, largest(i), h > 0.0_wp))
@@ -580,7 +582,7 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
         on_plane = merge(1.0_wp, 0.0_wp, tags(b + i, t_kind) == kind_plane)
         rho_beta = exp(beta_r * nodes(6)%log_rho(i))
         call growth_of_speed(beta_r, on_plane, rho_beta, nodes(6)%along(i), nodes(6)%across(i), growth, change, bend)
-        quotient = excess / max(nodes(6)%speed(i), nothing)
+        quotient = excess / max(nodes(6)%speed(i), slowest)
         next = h + inverted(-quotient, growth, change, bend)
         straight_on = h - quotient
         next = merge(next, straight_on, abs(growth * quotient) < 0.3_wp)
@@ -621,7 +623,7 @@ lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trac
     real(wp), intent(out) :: growth, change, bend
     real(wp) :: left, inverse, on_axis
     left = 1.0_wp - rho_beta
-    inverse = 1.0_wp / max(rho_beta, 1.0e-90_wp)
+    inverse = 1.0_wp / max(rho_beta, 1.0e-12_wp) ! nearer to zero no series helps
     on_axis = (1.0_wp - beta_r) / beta_r * left * inverse
     growth = chosen(on_plane, left * cosine, on_axis)
     change = chosen(on_plane, left * sine**2 - beta_r * rho_beta * growth * cosine, -on_axis * inverse)
