@@ -1,5 +1,7 @@
 /* Many points side by side: each gets what hypofab_update gives it, wherever it stands and whoever its neighbours are.
  */
+#define _GNU_SOURCE /* feenableexcept */
+#include <fenv.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
