@@ -43,9 +43,9 @@ typedef struct tally {
 static void update_group(int instructions, const hypofab_material *material, const hypofab_update_options *options,
                          const hypofab_points *points, size_t first, int n, tally *done) {
   int status[BATCH_GROUP];
-  hypofab_update_group(material, &options->tolerance, &options->max_evaluations, instructions, n, (int64_t)points->stride,
-                       points->stress + first, points->delta ? points->delta + first : NULL, points->void_ratio + first,
-                       points->strain + first, status, &done->evaluations, &done->scalar);
+  hypofab_update_group(material, &options->tolerance, &options->max_evaluations, instructions, n,
+                       (int64_t)points->stride, points->stress + first, points->delta ? points->delta + first : NULL,
+                       points->void_ratio + first, points->strain + first, status, &done->evaluations, &done->scalar);
   for (int i = 0; i < n; i++) {
     if (points->status) points->status[first + (size_t)i] = status[i];
     if (!status[i]) continue;

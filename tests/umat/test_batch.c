@@ -151,8 +151,9 @@ static void test_equal_to_scalar(void **unused) {
     for (int instructions = 0; instructions < n_instruction_sets(); instructions++) {
       cloud *after = copy(before);
       int64_t evaluations = 0, scalar = 0;
-      hypofab_update_group(&after->material, &tolerance, &max_evaluations, instructions, after->n, STRIDE, after->stress,
-                           after->delta, after->void_ratio, after->strain, after->status, &evaluations, &scalar);
+      hypofab_update_group(&after->material, &tolerance, &max_evaluations, instructions, after->n, STRIDE,
+                           after->stress, after->delta, after->void_ratio, after->strain, after->status, &evaluations,
+                           &scalar);
       for (int i = 0; i < after->n; i++) {
         const double d = difference_from_scalar(before, after, i, &options);
         worst = fmax(worst, d);
