@@ -53,6 +53,10 @@ module umat_material
     parameter_type('e_0'//nul, '-'//nul, 'initial void ratio (UMAT only), see docs/umat.md'//nul, &
                    -10.0_wp, 20.0_wp, .false.)]
 
+  !> How two parameters that contradict each other are named.
+  character(len=*), parameter :: contradiction = &
+    "(a, ' = ', g0.6, ' and ', a, ' = ', g0.6, ' contradict each other, expected ', a)"
+
   !> Parameters and the constants that follow from them.
   type :: material_type
     real(wp) :: p_t, h_s, n, e_d0, e_c0, e_i0, alpha, beta, m_R, m_T, R, beta_r, chi, K_w, e_0
@@ -97,56 +101,40 @@ contains
     integer, intent(out) :: status
     character(len=*), intent(out) :: message
     integer :: i
+    ! Written into a buffer of fixed length: with function results of deferred length, concatenated, threads of a program
+    ! compiled by gfortran 12 were seen to overrun each other's texts.
+    character(len=256) :: text
 
     status = status_bad_material
-    message = ''
+    text = ''
     do i = 1, n_parameters
       if (parameters(i)%intergranular .and. .not. intergranular_is_on(props)) cycle
       if (ieee_is_finite(props(i))) then ! before any comparison: one with NaN would trap
         if (props(i) >= parameters(i)%lower .and. props(i) <= parameters(i)%upper) cycle
       end if
-      message = name_of(i)//' = '//number(props(i))//' is not admissible, expected '//number(parameters(i)%lower)// &
-                ' <= '//name_of(i)//' <= '//number(parameters(i)%upper)
+      write (text, '(2a, g0.6, a, g0.6, 3a, g0.6)') name_of(i), ' = ', props(i), ' is not admissible, expected ', &
+        parameters(i)%lower, ' <= ', name_of(i), ' <= ', parameters(i)%upper
+      message = text
       return
     end do
     if (props(i_e_d0) >= props(i_e_c0)) then
-      message = disagreement(i_e_d0, i_e_c0, 'e_d0 < e_c0')
+      write (text, contradiction) name_of(i_e_d0), props(i_e_d0), name_of(i_e_c0), props(i_e_c0), 'e_d0 < e_c0'
     else if (props(i_e_c0) > props(i_e_i0)) then
-      message = disagreement(i_e_c0, i_e_i0, 'e_c0 <= e_i0')
+      write (text, contradiction) name_of(i_e_c0), props(i_e_c0), name_of(i_e_i0), props(i_e_i0), 'e_c0 <= e_i0'
     else if (stiffness_bracket(props) <= 0.0_wp) then
-      message = disagreement(i_phi_c, i_alpha, &
-                            '3 + a^2 - a sqrt(3) ((e_i0 - e_d0)/(e_c0 - e_d0))^alpha > 0 (stiffness would be negative)')
+      write (text, contradiction) name_of(i_phi_c), props(i_phi_c), name_of(i_alpha), props(i_alpha), &
+        '3 + a^2 - a sqrt(3) ((e_i0 - e_d0)/(e_c0 - e_d0))^alpha > 0 (stiffness would be negative)'
     else
       status = status_ok
     end if
-
-  contains
-
-    !> What two parameters that contradict each other are to be.
-    pure function disagreement(first, second, expected) result(text)
-      integer, intent(in) :: first, second
-      character(len=*), intent(in) :: expected
-      character(len=:), allocatable :: text
-      text = name_of(first)//' = '//number(props(first))//' and '//name_of(second)//' = '//number(props(second))// &
-             ' contradict each other, expected '//expected
-    end function disagreement
-
+    message = text
   end subroutine check_props
 
-  !> A number as text for a message.
-  pure function number(x) result(text)
-    real(wp), intent(in) :: x
-    character(len=:), allocatable :: text
-    character(len=24) :: buffer
-    write (buffer, '(g0.6)') x
-    text = trim(buffer)
-  end function number
-
-  !> Name of a parameter without the null character.
+  !> Name of a parameter without the null character and blanks.
   pure function name_of(i) result(name)
     integer, intent(in) :: i
-    character(len=:), allocatable :: name
-    name = parameters(i)%name(:index(parameters(i)%name, nul) - 1)
+    character(len=index(parameters(i)%name, nul) - 1) :: name
+    name = parameters(i)%name
   end function name_of
 
   !> The convention of the public UMAT: m_R <= 0.5 switches the intergranular strain off.
