@@ -7,6 +7,7 @@ program bench_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t
   use, intrinsic :: iso_fortran_env, only: int64
   use umat_batch, only: update_group
+  use bench_statistics, only: median
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props
   use umat_rate, only: state_type, state_rate
@@ -173,23 +174,5 @@ contains
     write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
       real(evaluations, wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
   end subroutine time_batch
-
-  !> Median, by sorting a copy.
-  pure function median(values) result(middle)
-    real(wp), intent(in) :: values(:)
-    real(wp) :: middle
-    real(wp) :: sorted(size(values)), held
-    integer :: a, b
-    sorted = values
-    do a = 2, size(sorted)
-      held = sorted(a)
-      do b = a - 1, 1, -1
-        if (sorted(b) <= held) exit
-        sorted(b + 1) = sorted(b)
-      end do
-      sorted(b + 1) = held
-    end do
-    middle = sorted((size(sorted) + 1) / 2)
-  end function median
 
 end program bench_batch

@@ -5,6 +5,7 @@
 !> at a tight tolerance.
 program bench_model
   use, intrinsic :: iso_fortran_env, only: int64, real64
+  use bench_statistics, only: median
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props
   use umat_rate, only: state_type, state_rate
@@ -146,23 +147,5 @@ contains
     call umat(stress, statev, ddsdde, dstran=dstran, ndi=3, nshr=3, ntens=6, nstatv=13, props=props, nprops=16, &
               pnewdt=pnewdt)
   end subroutine call_umat
-
-  !> Median, by sorting a copy.
-  pure function median(values) result(middle)
-    real(wp), intent(in) :: values(:)
-    real(wp) :: middle
-    real(wp) :: sorted(size(values)), held
-    integer :: a, b
-    sorted = values
-    do a = 2, size(sorted)
-      held = sorted(a)
-      do b = a - 1, 1, -1
-        if (sorted(b) <= held) exit
-        sorted(b + 1) = sorted(b)
-      end do
-      sorted(b + 1) = held
-    end do
-    middle = sorted((size(sorted) + 1) / 2)
-  end function median
 
 end program bench_model

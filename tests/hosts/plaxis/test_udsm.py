@@ -109,7 +109,7 @@ def test_order_and_shear_of_strain_stress_and_initial_delta(tmp_path: Path) -> N
     parameters[16:] = [-4e-5, 3e-5, 2e-5, 5e-5, -8e-5, 3e-5]
     path = tmp_path / "materials.json"
     path.write_text(json.dumps(materials))
-    columns = host(tmp_path, Path(__file__).with_name("general_shear.py"), str(path))
+    columns = host(tmp_path, Path(__file__).parents[1] / "general_shear.py", str(path))
     assert np.abs(strain_of(columns)[-1]).min() > 1e-5
     compare(columns, parameters, tmp_path)
 
@@ -120,4 +120,4 @@ def test_parameters_that_cannot_be_used_stop_the_analysis(tmp_path: Path) -> Non
     path = tmp_path / "materials.json"
     path.write_text(json.dumps(materials))
     with pytest.raises(AssertionError, match="UDSM returns an error"):
-        host(tmp_path, Path(__file__).with_name("general_shear.py"), str(path))
+        host(tmp_path, Path(__file__).parents[1] / "general_shear.py", str(path))
