@@ -7,16 +7,9 @@
 
 #include <stdbool.h>
 
+#include "fabric2delta/contact_stream.h"
 #include "fabric2delta/id_counts.h"
 #include "hypofab.h"
-
-enum { CONTACT_BLOCK = 512 };
-
-/** One contact, whatever program wrote it. */
-typedef struct contact {
-  double normal[3]; /**< unit vector; its sense does not matter */
-  int64_t id1, id2; /**< particles; negative when the list has no ids */
-} contact;
 
 /** Sums over contacts. All zero is an empty, usable sum. */
 typedef struct contact_sum {

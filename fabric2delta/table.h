@@ -13,7 +13,7 @@
 
 #include "fabric2delta/lines.h"
 
-enum { TABLE_MAX_REQUESTS = 8, TABLE_CELL = 64, TABLE_NAMES = 400 };
+enum { TABLE_MAX_REQUESTS = 24, TABLE_CELL = 64, TABLE_NAMES = 400 };
 
 /** A column to be found. */
 typedef struct table_request {
