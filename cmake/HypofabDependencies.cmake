@@ -1,6 +1,6 @@
 # Everything libhypofab links, in one interface library. libhypofab_umat links none of it.
 find_package(PkgConfig REQUIRED)
-find_package(SUNDIALS 6 REQUIRED CONFIG COMPONENTS arkode nvecserial) # element tests
+find_package(SUNDIALS 6 REQUIRED CONFIG COMPONENTS arkode cvode ida nvecserial sunlinsoldense) # element tests
 find_package(LAPACK REQUIRED) # principal values of fabric tensors
 find_package(GSL REQUIRED) # mixed control, roots of events
 find_package(ZLIB REQUIRED) # contact lists compressed by gzip
@@ -13,5 +13,5 @@ add_library(hypofab_dependencies INTERFACE)
 target_include_directories(hypofab_dependencies INTERFACE ${CSV_INCLUDE_DIR})
 target_link_libraries(
   # GSL before LAPACK: its plain BLAS serves 6x6 systems better than a threaded one that LAPACK may bring along.
-  hypofab_dependencies INTERFACE SUNDIALS::arkode SUNDIALS::nvecserial GSL::gsl LAPACK::LAPACK ZLIB::ZLIB PkgConfig::CYAML
-                                 PkgConfig::JANSSON ${CSV_LIBRARY} m)
+  hypofab_dependencies INTERFACE SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::sunlinsoldense SUNDIALS::nvecserial
+                                 GSL::gsl LAPACK::LAPACK ZLIB::ZLIB PkgConfig::CYAML PkgConfig::JANSSON ${CSV_LIBRARY} m)

@@ -17,6 +17,7 @@
 static const cyaml_strval_t unit_names[] = {{"Pa", DECK_PA}, {"kPa", DECK_KPA}, {"MPa", DECK_MPA}};
 static const cyaml_strval_t sign_names[] = {{"tension_positive", DECK_TENSION_POSITIVE},
                                             {"compression_positive", DECK_COMPRESSION_POSITIVE}};
+static const cyaml_strval_t integrator_names[] = {{"erk", HYPOFAB_ERK}, {"cvode", HYPOFAB_CVODE}, {"ida", HYPOFAB_IDA}};
 static const cyaml_strval_t axis_names[] = {{"x", 0}, {"y", 1}, {"z", 2}};
 /* libcyaml's own booleans take any text but "false", "no" and "0" for true. */
 static const cyaml_strval_t boolean_names[] = {{"false", 0}, {"true", 1}};
@@ -93,7 +94,9 @@ static const cyaml_schema_field_t step_fields[] = {
 static const cyaml_schema_value_t step_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_step, step_fields)};
 
 static const cyaml_schema_field_t test_fields[] = {
-    TEXT("name", deck_test, name), TEXT("state", deck_test, state),
+    TEXT("name", deck_test, name),
+    TEXT("state", deck_test, state),
+    CHOICE("integrator", deck_test, integrator, integrator_names),
     CYAML_FIELD_FLOAT_PTR("tolerance", OPTIONAL, deck_test, tolerance),
     CYAML_FIELD_SEQUENCE("steps", CYAML_FLAG_POINTER, deck_test, steps, &step_value, 1, CYAML_UNLIMITED),
     CYAML_FIELD_END};

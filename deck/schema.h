@@ -88,6 +88,7 @@ typedef struct deck_step {
 typedef struct deck_test {
   char *name;
   char *state;
+  int *integrator;
   double *tolerance;
   deck_step *steps;
   unsigned steps_count;

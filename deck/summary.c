@@ -76,6 +76,8 @@ static json_t *test_object(const hypofab_study *study, unsigned index, const stu
                       json_string(result->ran ? hypofab_status_text(result->status) : "not run: interrupted"));
   json_object_set_new(object, "message", *result->message ? json_string(result->message) : json_null());
   json_object_set_new(object, "rows", json_integer(result->rows));
+  json_object_set_new(object, "integrator",
+                      json_string(hypofab_integrator_name(study->tests[index].options.integrator)));
   json_object_set_new(object, "integrator_steps", json_integer(result->integrator_steps));
   json_object_set_new(object, "evaluations", json_integer(result->evaluations));
   json_object_set_new(object, "state", json_string(study->deck->tests[index].state));

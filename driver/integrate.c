@@ -1,34 +1,37 @@
+/* Integrators of element tests: what does not depend on which integrator of SUNDIALS is chosen. */
 #include "driver/integrate.h"
 
-#include <arkode/arkode_erkstep.h>
 #include <float.h>
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sundials/sundials_version.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 #include "base/message.h"
+#include "driver/integrate_method.h"
 
-static const double default_tolerance = 1e-8;
 static const long default_max_steps = 1000000;
 
-struct integrator {
-  const hypofab_material *material;
-  const hypofab_step *step;
-  hypofab_branch branch;
+/*
+ * By hypofab_integrator; the names are those of decks. Multistep methods take many small steps after each reversal,
+ * whose errors add up: the same agreement needs a finer default tolerance.
+ */
+static const struct {
+  const integrator_method *method;
+  const char *name;
   double tolerance;
-  long max_steps;  /* in one step of the test */
-  long step_count; /* since integrator_set_step */
-  long n_steps, n_evaluations;
-  hypofab_status obstacle; /* why the right-hand side last failed */
-  SUNContext context;
-  N_Vector y, absolute;
-  void *erk;
+} methods[] = {
+    [HYPOFAB_ERK] = {&integrator_erk, "erk", 1e-8},
+    [HYPOFAB_CVODE] = {&integrator_cvode, "cvode", 1e-11},
+    [HYPOFAB_IDA] = {&integrator_ida, "ida", 1e-11},
 };
 
-/* Right-hand side: the rates under the conditions of the step, on the branch of the current segment. */
-static int rates(realtype time, N_Vector y, N_Vector ydot, void *user) {
+const char *hypofab_integrator_name(hypofab_integrator integrator) {
+  return (unsigned)integrator < sizeof methods / sizeof *methods ? methods[integrator].name : NULL;
+}
+
+int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   (void)time;
   integrator *it = user;
   const test_state *state = (const test_state *)N_VGetArrayPointer(y);
@@ -45,23 +48,24 @@ static int rates(realtype time, N_Vector y, N_Vector ydot, void *user) {
   return 0;
 }
 
-/* Errors come back as return values; a library does not print. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 static int create_context(SUNContext *context) {
   if (SUNContext_Create(SUN_COMM_NULL, context)) return -1;
-  return SUNContext_ClearErrHandlers(*context);
-}
-static int silence(void *erk) {
-  (void)erk;
-  return 0;
+  return SUNContext_ClearErrHandlers(*context); /* a library does not print */
 }
 #else
 static int create_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
-static void say_nothing(int code, const char *module, const char *function, char *message, void *user) {
+
+void integrator_say_nothing(int code, const char *module, const char *function, char *message, void *user) {
   (void)code, (void)module, (void)function, (void)message, (void)user;
 }
-static int silence(void *erk) { return ERKStepSetErrHandlerFn(erk, say_nothing, NULL); }
 #endif
+
+int integrator_create_linear_solver(integrator *it) {
+  it->matrix = SUNDenseMatrix(N_STATE, N_STATE, it->context);
+  if (it->matrix) it->linear_solver = SUNLinSol_Dense(it->y, it->matrix, it->context);
+  return it->linear_solver ? 0 : -1;
+}
 
 /* Components below these are integrated to an absolute error of tolerance times these. */
 static void set_absolute(integrator *it, const test_state *state) {
@@ -83,20 +87,23 @@ hypofab_status integrator_create(const hypofab_material *material, const hypofab
   const hypofab_test_options defaults = {0};
   if (!options) options = &defaults;
   *created = NULL;
-  if (options->integrator != HYPOFAB_ERK)
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "integrator is %d, expected 0 (ERK)", (int)options->integrator);
+  if (!hypofab_integrator_name(options->integrator))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "integrator is %d, expected 0 (ERK), 1 (CVODE) or 2 (IDA)",
+                        (int)options->integrator);
   if (!(options->tolerance >= 0.0 && options->tolerance <= 1e-2))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "tolerance is %g, expected 0 (the default) to 0.01", options->tolerance);
   integrator *it = calloc(1, sizeof *it);
   if (!it) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for an integrator");
+  it->method = methods[options->integrator].method;
   it->material = material;
-  it->tolerance = options->tolerance > 0.0 ? fmax(options->tolerance, 1e-13) : default_tolerance;
+  it->tolerance = options->tolerance > 0.0 ? fmax(options->tolerance, 1e-13) : methods[options->integrator].tolerance;
   it->max_steps = options->max_steps > 0 ? options->max_steps : default_max_steps;
   if (create_context(&it->context) == 0) {
     it->y = N_VNew_Serial(N_STATE, it->context);
     it->absolute = N_VNew_Serial(N_STATE, it->context);
+    it->inside = N_VNew_Serial(N_STATE, it->context);
   }
-  if (!it->y || !it->absolute) {
+  if (!it->y || !it->absolute || !it->inside) {
     integrator_free(it);
     return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for an integrator");
   }
@@ -106,7 +113,11 @@ hypofab_status integrator_create(const hypofab_material *material, const hypofab
 
 void integrator_free(integrator *it) {
   if (!it) return;
-  if (it->erk) ERKStepFree(&it->erk);
+  it->method->free(it);
+  if (it->linear_solver) SUNLinSolFree(it->linear_solver);
+  if (it->matrix) SUNMatDestroy(it->matrix);
+  if (it->rate) N_VDestroy(it->rate);
+  if (it->inside) N_VDestroy(it->inside);
   if (it->y) N_VDestroy(it->y);
   if (it->absolute) N_VDestroy(it->absolute);
   if (it->context) SUNContext_Free(&it->context);
@@ -117,35 +128,36 @@ void integrator_set_step(integrator *it, const hypofab_step *step, hypofab_branc
   if (it->step != step) it->step_count = 0;
   it->step = step;
   it->branch = branch;
+  it->is_fresh = 1;
+}
+
+/* Does the integrator stand at this very place, with all it has learnt on the way? A multistep method should keep it.
+ */
+static int stands_at(const integrator *it, double time, const test_state *state) {
+  return it->method->interpolate && it->memory && !it->is_fresh && time == it->now &&
+         memcmp(N_VGetArrayPointer(it->y), state, sizeof *state) == 0;
 }
 
 hypofab_status integrator_start(integrator *it, double time, const test_state *state, double first_step) {
+  if (stands_at(it, time, state)) return HYPOFAB_OK;
   memcpy(N_VGetArrayPointer(it->y), state, sizeof *state);
   set_absolute(it, state);
-  int failed;
-  if (it->erk) {
-    failed = ERKStepReInit(it->erk, rates, time, it->y);
-  } else {
-    it->erk = ERKStepCreate(rates, time, it->y, it->context);
-    if (!it->erk) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for an integrator");
-    failed = silence(it->erk) || ERKStepSetUserData(it->erk, it) ||
-             ERKStepSetTableNum(it->erk, ARKODE_DORMAND_PRINCE_7_4_5) || ERKStepSetMaxNumSteps(it->erk, -1);
-  }
-  failed =
-      failed || ERKStepSVtolerances(it->erk, it->tolerance, it->absolute) || ERKStepSetInitStep(it->erk, first_step);
-  return failed ? hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator could not be set up") : HYPOFAB_OK;
+  it->obstacle = HYPOFAB_OK;
+  it->is_fresh = 0;
+  it->before = it->now = time;
+  if (it->method->start(it, time, first_step) >= 0) return HYPOFAB_OK;
+  return it->obstacle ? it->obstacle : hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator could not be set up");
 }
 
-double integrator_next_step(const integrator *it) {
-  realtype next = 0.0;
-  if (it->erk) ERKStepGetCurrentStep(it->erk, &next);
-  return next;
-}
+double integrator_next_step(const integrator *it) { return it->method->next_step(it); }
+
+/* What ends a test; ERKStep, CVODE and IDA number it alike (IDA has no TOO_CLOSE). */
+enum { TOO_MUCH_ACCURACY = -2, ERROR_TEST = -3, CONVERGENCE = -4, TOO_CLOSE = -27 };
 
 /* A failure of the integrator as a finding about the test. */
 static hypofab_status explain(integrator *it, int flag) {
   if (it->obstacle) return it->obstacle; /* its message stands */
-  if (flag == ARK_ERR_FAILURE || flag == ARK_TOO_MUCH_ACC || flag == ARK_TOO_CLOSE)
+  if (flag == TOO_MUCH_ACCURACY || flag == ERROR_TEST || flag == CONVERGENCE || flag == TOO_CLOSE)
     return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the strain rate grows without bound under the prescribed rates");
   return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator failed with code %d", flag);
 }
@@ -158,12 +170,13 @@ hypofab_status integrator_advance(integrator *it, double stop, double *time, tes
   }
   if (++it->step_count > it->max_steps)
     return hypofab_fail(HYPOFAB_STEP_LIMIT, "the step took more than %ld integrator steps", it->max_steps);
-  realtype reached = *time;
+  double reached = *time;
   it->obstacle = HYPOFAB_OK;
-  int flag = ERKStepSetStopTime(it->erk, stop);
-  if (flag >= 0) flag = ERKStepEvolve(it->erk, stop, it->y, &reached, ARK_ONE_STEP);
+  const int flag = it->method->advance(it, stop, &reached);
   if (flag < 0) return explain(it, flag);
   it->n_steps++;
+  it->before = *time;
+  it->now = reached;
   if (!(reached > *time)) /* steps have shrunk below the resolution of time */
     return it->obstacle ? it->obstacle
                         : hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
@@ -174,6 +187,12 @@ hypofab_status integrator_advance(integrator *it, double stop, double *time, tes
 }
 
 hypofab_status integrator_reach(integrator *it, double from, const test_state *start, double to, test_state *state) {
+  if (it->method->interpolate && from >= it->before && to <= it->now && !it->is_fresh) {
+    if (it->method->interpolate(it, to, it->inside) < 0)
+      return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator knows no state at time %g", to);
+    memcpy(state, N_VGetArrayPointer(it->inside), sizeof *state);
+    return HYPOFAB_OK;
+  }
   /* A part of a step that was accepted is accepted too, most of the time. */
   hypofab_status status = integrator_start(it, from, start, to - from);
   *state = *start;

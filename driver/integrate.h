@@ -1,6 +1,6 @@
 /**
  * @file integrate.h
- * @brief Time integration of a step of an element test. integrate.c is the only file that knows SUNDIALS.
+ * @brief Time integration of a step of an element test. Only integrate*.c know SUNDIALS.
  */
 #ifndef HYPOFAB_DRIVER_INTEGRATE_H
 #define HYPOFAB_DRIVER_INTEGRATE_H
@@ -27,7 +27,7 @@ void integrator_free(integrator *it);
 void integrator_set_step(integrator *it, const hypofab_step *step, hypofab_branch branch);
 
 /**
- * @brief Start, or start again, from a state.
+ * @brief Start, or start again, from a state. A multistep method that stands there already keeps its past.
  * @param first_step length in time of the first step to try; 0: the integrator chooses
  */
 hypofab_status integrator_start(integrator *it, double time, const test_state *state, double first_step);
@@ -45,7 +45,8 @@ double integrator_next_step(const integrator *it);
 hypofab_status integrator_advance(integrator *it, double stop, double *time, test_state *state);
 
 /**
- * @brief The state at a time shortly after a given one, by steps of the same integrator. Leaves it started at `from`.
+ * @brief The state at a time shortly after a given one: inside the last step of a multistep method by its polynomial,
+ * else by steps of the same integrator, which then stands elsewhere: integrator_start brings it back.
  * @param start state at time from
  * @param to    at least from
  */

@@ -350,13 +350,21 @@ typedef struct hypofab_row {
 /** Receives rows as they are computed. A non-zero return stops the test with HYPOFAB_INTERRUPTED. */
 typedef int (*hypofab_row_sink)(const hypofab_row *row, void *user);
 
-/** Integrators of an element test. */
-typedef enum hypofab_integrator { HYPOFAB_ERK = 0 } hypofab_integrator;
+/** Integrators of an element test (SUNDIALS). All agree; those beside the default are cross-checks. */
+typedef enum hypofab_integrator {
+  HYPOFAB_ERK = 0,   /**< ERKStep: explicit Runge-Kutta of Dormand and Prince, order 5(4) */
+  HYPOFAB_CVODE = 1, /**< CVODE: backward differentiation formulas of variable order, implicit */
+  HYPOFAB_IDA = 2    /**< IDA: the same for rate equation and conditions as one implicit system, without the solution of
+                        mixed control */
+} hypofab_integrator;
+
+/** Name of an integrator in decks ("erk", "cvode", "ida"); NULL when there is none of this number. */
+const char *hypofab_integrator_name(hypofab_integrator integrator);
 
 /** Options of an element test; zero in a field takes its default. */
 typedef struct hypofab_test_options {
   hypofab_integrator integrator;
-  double tolerance; /**< relative tolerance of the integrator; default 1e-8 */
+  double tolerance; /**< relative tolerance of the integrator; default 1e-8, of CVODE and IDA 1e-11 */
   long max_steps;   /**< integrator steps per step of the test; default 1000000 */
 } hypofab_test_options;
 

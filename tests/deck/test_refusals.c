@@ -140,6 +140,7 @@ static const refusal meaning_refusals[] = {
     {"name: two", "name: .hidden", 33, "tests[1].name", "'.hidden'", "no dot in front"},
     {"state: start\n    tolerance", "state: nowhere\n    tolerance", 23, "tests[0].state", "'nowhere'",
      "the deck's states"},
+    {"tolerance: 1.0e-7", "integrator: euler", 24, "tests[0].integrator", "euler", "erk, cvode, ida"},
     {"tolerance: 1.0e-7", "tolerance: -1", 24, "tests[0].tolerance", "-1", "between 0 and 1"},
     {"preset: oedometer_loading", "preset: oedometer", 27, "tests[0].steps[0].preset", "oedometer",
      "oedometer_loading"},

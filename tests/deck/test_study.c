@@ -269,6 +269,31 @@ static void rows_columns_and_summary_are_those_asked_for(void **state) {
   table_free(&t);
 }
 
+/* The integrator of a test is the deck's choice, and the answer does not depend on it. */
+static void the_integrator_is_a_choice(void **state) {
+  (void)state;
+  static const char *const names[] = {"erk", "cvode", "ida"};
+  double strain[3];
+  for (int i = 0; i < 3; i++) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "materials:\n  - {name: sand, sand: hochstetten}\n"
+             "states:\n  - {name: s, material: sand, p: 100, void_ratio: 0.7, delta: {zero: true}}\n"
+             "tests:\n  - name: t\n    state: s\n    integrator: %s\n    steps:\n"
+             "      - {preset: drained_triaxial_compression, axis: z, until: {quantity: q, value: 100}, rows: 5}\n"
+             "      - {preset: drained_triaxial_extension, axis: z, until: {quantity: q, value: 50}, rows: 5}\n",
+             names[i]);
+    assert_int_equal(run_text(text, scratch_path("out"), NULL, NULL), HYPOFAB_OK);
+    json_t *summary = summary_read(scratch_path("out"));
+    const json_t *test = summary_test(summary, 0);
+    assert_string_equal(json_string_value(json_object_get(test, "integrator")), names[i]);
+    const json_t *end = json_object_get(json_array_get(json_object_get(test, "steps"), 1), "end");
+    strain[i] = json_number_value(json_object_get(end, "eps_zz"));
+    json_decref(summary);
+  }
+  assert_true(fabs(strain[1] / strain[0] - 1) < 1e-6 && fabs(strain[2] / strain[0] - 1) < 1e-6);
+}
+
 /* A test that asks for more stress than the sand can carry, and one behind it that is fine. */
 static const char *const overload =
     "materials:\n  - {name: sand, sand: hochstetten}\n"
@@ -400,6 +425,7 @@ int main(void) {
       TEST(delta_of_a_contact_list_is_that_of_its_fabric),
       TEST(without_intergranular_strain_delta_stays_zero),
       TEST(rows_columns_and_summary_are_those_asked_for),
+      TEST(the_integrator_is_a_choice),
       TEST(a_physical_stop_keeps_the_rows_and_the_tests_behind_it),
       TEST(an_interruption_keeps_the_rows_so_far),
       TEST(progress_rises_to_the_end),

@@ -1,0 +1,167 @@
+/* The integrators agree: explicit Runge-Kutta, backward differentiation, and an implicit system without mixed control.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "hypofab.h"
+#include "recorder.h"
+#include "support/tensors.h"
+
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+/* clang-format on */
+
+static const hypofab_integrator all[] = {HYPOFAB_ERK, HYPOFAB_CVODE, HYPOFAB_IDA};
+
+/* Rows of the same test by every integrator: the same number of them, and every quantity alike within 1e-6. */
+static void compare(const hypofab_material *material, const hypofab_state *state, const hypofab_step *steps,
+                    int n_steps, hypofab_status expected) {
+  recorder reference = {0};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+    /* Undrained cycles amplify what the default tolerance of ERKStep leaves, 1e-8 in each step, to 4e-6. */
+    const hypofab_test_options options = {.integrator = all[i], .tolerance = all[i] == HYPOFAB_ERK ? 1e-10 : 0.0};
+    hypofab_test_outcome outcome;
+    recorder other = {0}, *r = i == 0 ? &reference : &other;
+    assert_int_equal(hypofab_test_run(material, state, steps, n_steps, &options, recorder_take, r, &outcome), expected);
+    assert_true(outcome.integrator_steps > 10 && outcome.evaluations > outcome.integrator_steps);
+    if (i == 0) continue;
+    assert_int_equal(other.n, reference.n);
+    for (int k = 0; k < other.n; k++) {
+      const double *a = other.rows[k].value, *b = reference.rows[k].value;
+      const double p = b[HYPOFAB_P];
+      double strain = 1e-4;
+      for (int c = HYPOFAB_EPS_XX; c <= HYPOFAB_EPS_YZ; c++) strain = fmax(strain, fabs(b[c]));
+      for (int c = HYPOFAB_SIG_XX; c <= HYPOFAB_SIG_YZ; c++) assert_true(fabs(a[c] - b[c]) < 1e-6 * p);
+      for (int c = HYPOFAB_EPS_XX; c <= HYPOFAB_EPS_YZ; c++) assert_true(fabs(a[c] - b[c]) < 1e-6 * strain);
+      for (int c = HYPOFAB_DELTA_XX; c <= HYPOFAB_DELTA_YZ; c++)
+        assert_true(fabs(a[c] - b[c]) < 1e-6 * (material->m_R > 0.5 ? material->R : 1.0));
+      assert_true(fabs(a[HYPOFAB_VOID_RATIO] - b[HYPOFAB_VOID_RATIO]) < 1e-6);
+    }
+    recorder_clear(&other);
+  }
+  recorder_clear(&reference);
+}
+
+/* The tests of paper 000 to 10 % strain, with rows in a quantity that nothing prescribes, with and without delta. */
+static void test_element_tests(void **unused) {
+  (void)unused;
+  for (int number = 0; number < 4; number++) {
+    hypofab_material material;
+    hypofab_state state;
+    hypofab_step steps[2];
+    paper_test(number, &material, &state, steps);
+    steps[0].rows = 5;
+    if (number == 3) material.m_R = 0.0; /* the plain model */
+    compare(&material, &state, steps, 2, HYPOFAB_OK);
+  }
+}
+
+/* Drained triaxial cycles between marks of q, loading and unloading: reversals of delta at known and at unknown places,
+ * ends as roots of a quantity that nothing prescribes. */
+static void test_cycles_with_events(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -200, 0, 0, 0}, {0}, 0.7};
+  enum { N = 9 };
+  hypofab_step steps[N];
+  memset(steps, 0, sizeof steps);
+  for (int i = 0; i < N; i++) {
+    const char *preset = i % 2 ? "drained_triaxial_extension" : "drained_triaxial_compression";
+    assert_int_equal(hypofab_step_preset(&steps[i], preset, 2, 1e-3), HYPOFAB_OK);
+    steps[i].until = (hypofab_mark){HYPOFAB_Q, i % 2 ? 60.0 : 140.0};
+    steps[i].rows = 4;
+  }
+  compare(&material, &state, steps, N, HYPOFAB_OK);
+}
+
+/* Undrained triaxial cycles of a dense sand between axial strains: p falls, and with it every stiffness. */
+static void test_undrained_cycles(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("karlsruhe_fine", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-200, -200, -200, 0, 0, 0}, {0}, 0.85};
+  enum { N = 12 };
+  hypofab_step steps[N];
+  memset(steps, 0, sizeof steps);
+  for (int i = 0; i < N; i++) {
+    const char *preset = i % 2 ? "undrained_triaxial_extension" : "undrained_triaxial_compression";
+    assert_int_equal(hypofab_step_preset(&steps[i], preset, 1, 1e-3), HYPOFAB_OK);
+    steps[i].until = (hypofab_mark){HYPOFAB_EPS_YY, i % 2 ? 5e-4 : -1e-3};
+    steps[i].rows = 3;
+  }
+  compare(&material, &state, steps, N, HYPOFAB_OK);
+}
+
+/* A strain path that turns slowly is written as steps; inside one of them delta crosses to the other branch by itself:
+ * shear under constant normal stress from a delta that was mobilised obliquely to it. */
+static void test_reversal_inside_a_step(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("karlsruhe_fine", &material), HYPOFAB_OK);
+  hypofab_state state = {{-90, -150, -90, 30, 0, 0}, {0}, 0.85};
+  const double mobilised[6] = {0.5, -0.5, 0, 0.5, 0, 0};
+  for (int k = 0; k < 6; k++) state.delta[k] = material.R * (1.0 - 1e-15) * mobilised[k];
+  const hypofab_control control[6] = {HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE,
+                                      HYPOFAB_STRAIN_RATE, HYPOFAB_STRAIN_RATE, HYPOFAB_STRAIN_RATE};
+  const double rates[2][6] = {{0, 0, 0, -1e-3, 0, 0}, {0, 0, 0, 1e-3, 0, 0}};
+  hypofab_step steps[4];
+  memset(steps, 0, sizeof steps);
+  for (int i = 0; i < 4; i++) {
+    assert_int_equal(hypofab_step_control(&steps[i], control, rates[i % 2]), HYPOFAB_OK);
+    steps[i].until = (hypofab_mark){HYPOFAB_EPS_XY, i % 2 ? 5e-4 : -5e-4};
+    steps[i].every = (hypofab_mark){HYPOFAB_SIG_XY, 10.0};
+  }
+  compare(&material, &state, steps, 4, HYPOFAB_OK);
+}
+
+/* Stress control beyond the peak: the same finding at the same place. */
+static void test_stops(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_state state;
+  hypofab_step steps[2], push;
+  paper_test(2, &material, &state, steps);
+  const hypofab_control all_stress[6] = {1, 1, 1, 1, 1, 1};
+  const double rate[6] = {0, -1.0, 0, 0, 0, 0};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+    memset(&push, 0, sizeof push);
+    assert_int_equal(hypofab_step_control(&push, all_stress, rate), HYPOFAB_OK);
+    push.until = (hypofab_mark){HYPOFAB_SIG_YY, -1000.0};
+    const hypofab_test_options options = {.integrator = all[i]};
+    hypofab_test_outcome outcome;
+    assert_int_equal(hypofab_test_run(&material, &state, &push, 1, &options, NULL, NULL, &outcome),
+                     HYPOFAB_NOT_CONTROLLABLE);
+    static double peak;
+    if (i == 0) peak = outcome.last.value[HYPOFAB_Q];
+    assert_true(fabs(outcome.last.value[HYPOFAB_Q] / peak - 1.0) < 1e-5);
+  }
+}
+
+static void test_names(void **unused) {
+  (void)unused;
+  assert_string_equal(hypofab_integrator_name(HYPOFAB_IDA), "ida");
+  assert_null(hypofab_integrator_name((hypofab_integrator)3));
+  hypofab_material material;
+  hypofab_state state;
+  hypofab_step steps[2];
+  const hypofab_test_options unknown = {.integrator = (hypofab_integrator)3};
+  paper_test(0, &material, &state, steps);
+  assert_int_equal(hypofab_test_run(&material, &state, steps, 1, &unknown, NULL, NULL, NULL), HYPOFAB_BAD_ARGUMENT);
+  assert_non_null(strstr(hypofab_last_message(), "integrator is 3"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_element_tests),
+      cmocka_unit_test(test_cycles_with_events),
+      cmocka_unit_test(test_undrained_cycles),
+      cmocka_unit_test(test_reversal_inside_a_step),
+      cmocka_unit_test(test_stops),
+      cmocka_unit_test(test_names),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
