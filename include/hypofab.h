@@ -413,6 +413,145 @@ typedef struct hypofab_probe {
 hypofab_status hypofab_envelope(const hypofab_material *material, const hypofab_state *state, int axis, double size,
                                 int n, hypofab_probe *probes);
 
+/* ------------------------------------------------------------------ probes */
+
+/**
+ * A linear space of probe directions: all combinations of `dimension` orthonormal tensors. Coordinates in it are
+ * isometric: the norm of a tensor in the space is the length of its coordinates.
+ */
+typedef struct hypofab_subspace {
+  int dimension; /**< 2 (a plane), 3 (principal directions) or 6 (all components) */
+  double basis[6][6];
+} hypofab_subspace;
+
+/**
+ * @brief The axisymmetric plane: axial part, lateral parts alike.
+ * @param axis 0, 1, 2: the axis of symmetry x, y, z. Coordinates: axial component, sqrt(2) times the lateral one.
+ */
+hypofab_status hypofab_subspace_axisymmetric(int axis, hypofab_subspace *space);
+
+/**
+ * @brief The plane that two tensors span.
+ * @param first, second tensors of any length, not parallel. The first basis tensor is along the first; the second is
+ *        what is left of the second after that
+ */
+hypofab_status hypofab_subspace_plane(const double first[6], const double second[6], hypofab_subspace *space);
+
+/**
+ * @brief The space of tensors with given principal directions; coordinates are the principal values.
+ * @param axes of this tensor, the basis in the order of its principal values, lowest first; NULL: x, y, z
+ */
+hypofab_status hypofab_subspace_principal(const double axes[6], hypofab_subspace *space);
+
+/** All six components; coordinates xx, yy, zz, sqrt(2) xy, sqrt(2) xz, sqrt(2) yz. */
+void hypofab_subspace_all(hypofab_subspace *space);
+
+/** Coordinates of a tensor's projection on a space: `dimension` numbers. */
+void hypofab_subspace_coordinates(const hypofab_subspace *space, const double tensor[6], double *coordinates);
+
+/**
+ * @brief Evenly distributed directions of a space: unit tensors.
+ *
+ * Plane: angles 360 deg k/n from the first basis tensor to the second. Three dimensions: zones of equal area around
+ * the hydrostatic axis (Leopardi 2006), from -(1,1,1)/sqrt(3) to +(1,1,1)/sqrt(3), both included. Six: pairs of
+ * opposite directions, one of each from a Sobol sequence made normal.
+ * @param n          1 or more; 5 or more in three dimensions; even in six
+ * @param directions n entries, filled
+ */
+hypofab_status hypofab_directions(const hypofab_subspace *space, int n, double (*directions)[6]);
+
+/**
+ * @brief The closed surface of triangles on the n directions that hypofab_directions gives in three dimensions.
+ * @param triangles 2 n - 4 entries, filled with indices of directions, counter-clockwise seen from outside
+ */
+hypofab_status hypofab_directions_triangles(int n, int (*triangles)[3]);
+
+/** What a probe imposes. */
+typedef enum hypofab_imposed { HYPOFAB_IMPOSE_STRAIN = 0, HYPOFAB_IMPOSE_STRESS = 1 } hypofab_imposed;
+
+/** What to probe with. Zero in a field takes its default. */
+typedef struct hypofab_probe_options {
+  hypofab_imposed imposed; /**< strain (default) or stress */
+  double size;             /**< 0: rates; > 0: increments of this Frobenius norm [-, or stress], straight and even */
+  int unload;              /**< non-zero: then back by the same increment. For rates: the limit of small increments */
+  double tolerance;        /**< relative tolerance of finite probes; default 1e-9 */
+  int threads;             /**< OpenMP threads for finite probes; 0 or 1: none */
+} hypofab_probe_options;
+
+/** One probe and what answers it, per unit of what is imposed. NaN where the status is not 0. */
+typedef struct hypofab_answer {
+  double direction[6];     /**< unit tensor: of the strain (rate), or of the stress (rate) */
+  double response[6];      /**< stress answer [stress], or strain answer [1/stress] */
+  double irrecoverable[6]; /**< what of the response is left after unloading; NaN without unloading */
+  hypofab_status status;   /**< 0, or why this probe has no answer, e.g. HYPOFAB_NOT_CONTROLLABLE beyond a peak */
+} hypofab_answer;
+
+/** Told how far a run is: what is being computed and the fraction done. Non-zero asks to stop. */
+typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
+
+/**
+ * @brief Probe one state in many directions; every probe starts from it anew.
+ * @param material   parameters
+ * @param state      the state probed
+ * @param options    NULL for strain rates
+ * @param n          number of probes
+ * @param directions n tensors of any length > 0
+ * @param progress   NULL, or called from time to time with what = "probes"
+ * @param user       handed to progress
+ * @param answers    n entries, filled; a probe without answer keeps its status, the others are computed all the same
+ * @return the status of the first probe without answer; HYPOFAB_INTERRUPTED when progress asked to stop (the rest has
+ *         that status); from 100 on nothing is computed
+ */
+hypofab_status hypofab_probe_run(const hypofab_material *material, const hypofab_state *state,
+                                 const hypofab_probe_options *options, int n, const double (*directions)[6],
+                                 hypofab_progress progress, void *user, hypofab_answer *answers);
+
+/** What follows from one answer. NaN where it is not defined. */
+typedef struct hypofab_probe_measures {
+  double stiffness;       /**< stress over strain, by norms, in this direction [stress] */
+  double work;            /**< second-order work: cosine between stress and strain increment [-] */
+  double dilatancy;       /**< of the flow: eps_v/eps_q, or p/q of its stress (tension positive) [-] */
+  double angle_to_stress; /**< between deviators of flow and stress [deg] */
+  double angle_to_delta;  /**< between deviators of flow and intergranular strain [deg] */
+} hypofab_probe_measures;
+
+/**
+ * @brief Directional stiffness and flow direction of one answer.
+ *
+ * The flow is the irrecoverable part where the probe was unloaded, else the whole response.
+ */
+void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_state *state, const hypofab_answer *answer,
+                           hypofab_probe_measures *measures);
+
+/** The ellipsoid (in a plane: ellipse) that is nearest to an envelope. */
+typedef struct hypofab_ellipsoid {
+  int dimension;       /**< of the space of directions */
+  int points;          /**< answers used: those with status 0 */
+  double centre[6];    /**< tensor, unit of the response */
+  double semi_axis[6]; /**< `dimension` lengths, largest first */
+  double axis[6][6];   /**< their directions: unit tensors */
+  double distance;     /**< of the points from the ellipsoid: root mean square over that of the points [-] */
+  double nonlinearity; /**< the same from the best centred ellipsoid: 0 for an incrementally linear material [-] */
+  double direction[6]; /**< unit tensor along which the points scatter most about the origin */
+  double straightness; /**< share of their mean square along it; 1: the envelope is a straight line [-] */
+} hypofab_ellipsoid;
+
+/** Which tensor of an answer makes the envelope. */
+typedef enum hypofab_envelope_part { HYPOFAB_RESPONSE = 0, HYPOFAB_IRRECOVERABLE = 1 } hypofab_envelope_part;
+
+/**
+ * @brief Fit an ellipsoid to the answers of evenly distributed probes.
+ *
+ * Least squares of response = A direction + centre: the ellipsoid is the image of the unit sphere of directions. An
+ * incrementally linear material answers with centre = 0 and no distance; the plain model's strain-rate envelope,
+ * L:D + N |D|, is an ellipsoid around N.
+ * @param distances n entries, filled with each point's distance from the ellipsoid in the unit of the response (NaN
+ *        for failed probes), unless NULL
+ * @return HYPOFAB_BAD_ARGUMENT when fewer answers than unknowns are left or the directions do not span the space
+ */
+hypofab_status hypofab_probe_fit(const hypofab_subspace *space, int n, const hypofab_answer *answers,
+                                 hypofab_envelope_part part, hypofab_ellipsoid *ellipsoid, double *distances);
+
 /* ------------------------------------------------------------ fabric2delta */
 
 /** Contact fabric of a sample (paper 000, Eqs. 1 to 4). */
@@ -484,9 +623,6 @@ int hypofab_study_test_count(const hypofab_study *study);
 int hypofab_study_envelope_count(const hypofab_study *study);
 const char *hypofab_study_test_name(const hypofab_study *study, int index);
 const char *hypofab_study_envelope_name(const hypofab_study *study, int index);
-
-/** Told how far a run is: what is being computed and the fraction done. Non-zero asks to stop. */
-typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
 
 /**
  * @brief Run every test of a study and write DIR/<test>.csv each and DIR/summary.json.
