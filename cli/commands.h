@@ -17,6 +17,9 @@ int cmd_envelope(int argc, char **argv);
 /** Contact fabric of a contact list. */
 int cmd_fabric(int argc, char **argv);
 
+/** Changes of fabric between snapshots. */
+int cmd_changes(int argc, char **argv);
+
 /** Initial intergranular strain of a contact list or a fabric tensor. */
 int cmd_delta(int argc, char **argv);
 

@@ -85,8 +85,14 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       chosen->has_tensor = true;
       break;
     case ARGP_KEY_ARG:
+      if (chosen->several) return ARGP_ERR_UNKNOWN; /* asks for all of them at once: ARGP_KEY_ARGS */
       if (chosen->file) argp_error(state, "'%s': one contact list at a time", text);
       chosen->file = text;
+      break;
+    case ARGP_KEY_ARGS:
+      chosen->files = state->argv + state->next;
+      chosen->n_files = state->argc - state->next;
+      chosen->file = chosen->files[0];
       break;
     case ARGP_KEY_END: check(state, chosen); break;
     default: return ARGP_ERR_UNKNOWN;

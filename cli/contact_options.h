@@ -10,10 +10,13 @@
 
 #include "hypofab.h"
 
-/** What the user said. All zero before parsing. */
+/** What the user said. All zero before parsing, but for `several`. */
 typedef struct contact_options {
-  const char *file; /**< contact list; NULL when N is given */
-  bool has_tensor;  /**< N is given */
+  bool several;     /**< set before parsing: more than one contact list is welcome */
+  const char *file; /**< contact list, the first one; NULL when N is given */
+  char **files;     /**< all of them, n_files; set with `several` only */
+  int n_files;
+  bool has_tensor; /**< N is given */
   double N[6];
   hypofab_contact_format format;
 } contact_options;

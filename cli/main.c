@@ -17,6 +17,7 @@ static const struct command {
     {"check", cmd_check, "validate a deck and say what it would run"},
     {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
     {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},
+    {"changes", cmd_changes, "contacts lost, gained and turned between snapshots, and the fabric they change"},
     {"delta", cmd_delta, "initial intergranular strain from a contact list or a fabric tensor"},
 };
 

@@ -74,7 +74,7 @@ static hypofab_status solve(gsl_matrix *X, gsl_vector *y, int terms, fit *result
   size_t rank;
   if (!work || !c || !covariance)
     status = hypofab_fail(HYPOFAB_NO_MEMORY, "fit of probes: out of memory");
-  else if (gsl_multifit_linear_tsvd(X, y, rank_tolerance, c, covariance, &square, &(double){0}, &rank, work))
+  else if (gsl_multifit_linear_tsvd(X, y, rank_tolerance, c, covariance, &square, &rank, work))
     status = hypofab_fail(HYPOFAB_INTERNAL_ERROR, "fit of probes: GSL failed");
   else if (rank < p)
     status = hypofab_fail(HYPOFAB_BAD_ARGUMENT,
@@ -172,14 +172,13 @@ static void set_reorientation(const fit *dA, double sign, hypofab_mechanism_fit 
   one->C = scaled(-0.5, one->E);
 }
 
-static void set_total(const fit dZ[2], double sign, hypofab_fabric_response *response) {
+static void set_total(const fit dZ[2], hypofab_fabric_response *response) {
   const hypofab_mechanism_fit *loss = &response->mechanism[HYPOFAB_LOSS], *gain = &response->mechanism[HYPOFAB_GAIN],
                               *turn = &response->mechanism[HYPOFAB_REORIENTATION];
   const double *terms[3] = {first_of, second_of, third_of};
   for (int k = 0; k < 3; k++)
-    response->a[k] = sum(linear_form(&dZ[HYPOFAB_GAIN], 3, terms[k]), -1.0,
-                         linear_form(&dZ[HYPOFAB_LOSS], 3, terms[k]));
-  (void)sign;
+    response->a[k] =
+        sum(linear_form(&dZ[HYPOFAB_GAIN], 3, terms[k]), -1.0, linear_form(&dZ[HYPOFAB_LOSS], 3, terms[k]));
   response->a[3] = sum(sum(gain->E, -1.0, loss->E), 1.0, turn->E);
   response->a[4] = sum(gain->G, -1.0, loss->G);
   response->linear[0] = sum(gain->B, -1.0, loss->B);
@@ -199,18 +198,17 @@ hypofab_status hypofab_fabric_fit(int n, const hypofab_fabric_probe *probes, int
 
   const double sign = printed ? -1.0 : 1.0;
   hypofab_fabric_response found;
-  fit dZ[2], dA;
+  fit dZ[2] = {0}, dA = {0};
   for (int m = 0; m < 2; m++) {
     hypofab_status status = fit_rates(n, probes, basis_dZ, &probes->dZ[m], &dZ[m]);
     if (!status) status = fit_rates(n, probes, basis_dA, &probes->dA[m], &dA);
     if (status) return status;
     set_coefficients(&dZ[m], &dA, sign, &found.mechanism[m]);
   }
-  hypofab_status status =
-      fit_rates(n, probes, basis_reorientation, &probes->dA[HYPOFAB_REORIENTATION], &dA);
+  hypofab_status status = fit_rates(n, probes, basis_reorientation, &probes->dA[HYPOFAB_REORIENTATION], &dA);
   if (status) return status;
   set_reorientation(&dA, sign, &found.mechanism[HYPOFAB_REORIENTATION]);
-  set_total(dZ, sign, &found);
+  set_total(dZ, &found);
   *response = found;
   return HYPOFAB_OK;
 }
@@ -222,7 +220,8 @@ hypofab_status hypofab_fabric_zones(double a_n, double stress_ratio, double no_g
   if (!isfinite(a_n) || !isfinite(stress_ratio))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "zones: a_n is %g and q/p is %g; expected finite numbers", a_n,
                         stress_ratio);
-  /* |a_n + 2 tan(alpha - 45 deg) - 2 q/p| = 1 bounds both zones; in one of them dp is negative, in the other positive. */
+  /* |a_n + 2 tan(alpha - 45 deg) - 2 q/p| = 1 bounds both zones; in one of them dp is negative, in the other positive.
+   */
   const double bound[2] = {stress_ratio - 0.5 * (a_n + 1.0), stress_ratio - 0.5 * (a_n - 1.0)};
   for (int k = 0; k < 2; k++) {
     no_gain[k] = 45.0 + atan(bound[k]) * 180.0 / M_PI;

@@ -45,7 +45,7 @@ typedef struct snapshot_comparison {
   int number;           /**< of this state, from 1 */
   kept_contacts gained; /**< contacts without partner in `before` */
   int64_t persisting;
-  double sums[2][6]; /**< of n (x) n over persisting contacts, before and after */
+  double sums[2][6];  /**< of n (x) n over persisting contacts, before and after */
   double square_turn; /**< sum over persisting contacts of the squared angle between the two normals [rad^2] */
 } snapshot_comparison;
 

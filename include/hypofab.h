@@ -626,14 +626,14 @@ typedef struct hypofab_rose {
 
 /** Change of contact fabric between two snapshots: dF = dF^g - dF^l + dF^r (paper 001, Eq. 4). */
 typedef struct hypofab_fabric_change {
-  int64_t particles;                             /**< N_p of F = (2/N_p) sum n n (paper 001, Eq. 1) */
-  int64_t contacts_before, contacts_after;       /**< N_c */
-  int64_t contacts[HYPOFAB_N_MECHANISMS];        /**< lost, gained, persisting */
-  double fabric_before[6], fabric_after[6];      /**< F; its trace is the coordination number Z */
-  double change[6];                              /**< dF */
-  double by_mechanism[HYPOFAB_N_MECHANISMS][6];  /**< dF^l, dF^g, dF^r */
-  double turn;                                   /**< root-mean-square turn of the persisting normals [deg] */
-  hypofab_rose rose[2];                          /**< orientations of the lost and of the gained contacts */
+  int64_t particles;                            /**< N_p of F = (2/N_p) sum n n (paper 001, Eq. 1) */
+  int64_t contacts_before, contacts_after;      /**< N_c */
+  int64_t contacts[HYPOFAB_N_MECHANISMS];       /**< lost, gained, persisting */
+  double fabric_before[6], fabric_after[6];     /**< F; its trace is the coordination number Z */
+  double change[6];                             /**< dF */
+  double by_mechanism[HYPOFAB_N_MECHANISMS][6]; /**< dF^l, dF^g, dF^r */
+  double turn;                                  /**< root-mean-square turn of the persisting normals [deg] */
+  hypofab_rose rose[2];                         /**< orientations of the lost and of the gained contacts */
 } hypofab_fabric_change;
 
 /** Options of a comparison; zero in a field takes its default. */
