@@ -551,6 +551,46 @@ typedef enum hypofab_envelope_part { HYPOFAB_RESPONSE = 0, HYPOFAB_IRRECOVERABLE
  */
 hypofab_status hypofab_probe_fit(const hypofab_subspace *space, int n, const hypofab_answer *answers,
                                  hypofab_envelope_part part, hypofab_ellipsoid *ellipsoid, double *distances);
+/* --------------------------------------------------------------- stability */
+
+/** Stability of a state, over all strain rates and all planes (docs/stability.md). */
+typedef struct hypofab_stability {
+  double work;       /**< smallest second-order work Tdot:D over |D| = 1 [stress]; > 0: stable (Hill 1958) */
+  double work_ratio; /**< the same over that of the state without memory (plain: over that of L): 1 for delta = 0 */
+  double work_direction[6];   /**< the D that has it, |D| = 1 */
+  hypofab_branch work_branch; /**< the branch this D is on */
+  double acoustic;            /**< smallest determinant of the acoustic tensor over all planes and branches [stress^3];
+                                   <= 0: a band can form (Rudnicki & Rice 1975) */
+  double acoustic_ratio;      /**< the same over the determinant on this plane without memory (plain: of L) */
+  hypofab_branch acoustic_branch; /**< the branch it belongs to */
+  double band_normal[3];          /**< unit normal of that plane; its largest component is positive */
+  double band_mode[3];   /**< unit relative velocity of its sides, in the sense in which the stress drives it */
+  double band_angle;     /**< between normal and most compressive principal stress [deg]: the inclination of the
+                              band to the plane this stress acts on; NaN for isotropic stress */
+  double band_dilatancy; /**< asin(mode.normal) [deg], > 0: the band dilates */
+  double bound;          /**< |L^-1 N| of the model without intergranular strain; 1 on its bound surface */
+} hypofab_stability;
+
+/** Measures of stability of a state. Errors as hypofab_state_check. */
+hypofab_status hypofab_stability_state(const hypofab_material *material, const hypofab_state *state,
+                                       hypofab_stability *result);
+
+/** Stability of the path that a step prescribes at a state. */
+typedef struct hypofab_control_stability {
+  hypofab_branch branch; /**< the branch of the path */
+  double work;           /**< second-order work Tdot:D/|D|^2 along the path [stress] */
+  double work_cosine;    /**< Tdot:D/(|Tdot||D|), -1 to 1 */
+  double determinant;    /**< of the six conditions, over that without memory (plain: of L): 1 for delta = 0, 0 where
+                              controllability is lost */
+  double condition;      /**< condition number of the six conditions, rows scaled */
+} hypofab_control_stability;
+
+/**
+ * @brief Measures of stability of what a step does at a state; only the conditions of the step matter.
+ * @return HYPOFAB_NOT_CONTROLLABLE, HYPOFAB_NOT_UNIQUE or HYPOFAB_OUT_OF_DOMAIN where the path has no strain rate
+ */
+hypofab_status hypofab_stability_control(const hypofab_material *material, const hypofab_state *state,
+                                         const hypofab_step *step, hypofab_control_stability *result);
 
 /* ------------------------------------------------------------ fabric2delta */
 
