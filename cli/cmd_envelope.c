@@ -7,13 +7,17 @@
 #include "hypofab.h"
 
 static const char text[] =
-    "Compute the response envelopes of a deck and write DIR/ENVELOPE.csv for each.\v"
-    "Each series of an envelope probes one state with strain rates of unit length in all directions of the "
-    "axisymmetric plane. docs/deck.md describes decks and columns.\n"
+    "Compute the response envelopes and probes of a deck: DIR/ENVELOPE.csv for each, DIR/ENVELOPE.vtp for ParaView "
+    "where "
+    "the deck asks for it, and DIR/envelopes.json with ellipsoids and stiffnesses.\v"
+    "Each series of an envelope probes one state, or the end of a test, with strains or stresses of one size in many "
+    "directions: of the axisymmetric plane, of any plane, of the sphere of principal directions, of all six "
+    "components. "
+    "docs/deck.md describes decks and columns, docs/probes.md what they mean.\n"
     "\n"
     "Examples:\n"
     "  hypofab envelope examples/response_envelopes.yaml\n"
-    "  hypofab envelope my_sand.yaml -o results/my_sand";
+    "  hypofab envelope examples/stress_probes.yaml -o results/probes";
 
 int cmd_envelope(int argc, char **argv) {
   const deck_arguments arguments = deck_arguments_parse(argc, argv, text, 1);

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -104,7 +105,8 @@ void output_discard(output_file *file) {
 
 int output_number(char *text, char separator, double value) {
   text[0] = separator;
-  if (value == 0) return strcpy(text + 1, "0"), 2; /* also for -0 */
+  if (value == 0) return strcpy(text + 1, "0"), 2;     /* also for -0 */
+  if (isnan(value)) return strcpy(text + 1, "nan"), 4; /* never -nan */
   /* A fifth faster than snprintf, and numbers are most of what a run writes. */
   return 1 + strfromd(text + 1, OUTPUT_NUMBER_SIZE - 1, "%.17g", value);
 }

@@ -18,6 +18,9 @@ static const cyaml_strval_t unit_names[] = {{"Pa", DECK_PA}, {"kPa", DECK_KPA}, 
 static const cyaml_strval_t sign_names[] = {{"tension_positive", DECK_TENSION_POSITIVE},
                                             {"compression_positive", DECK_COMPRESSION_POSITIVE}};
 static const cyaml_strval_t integrator_names[] = {{"erk", HYPOFAB_ERK}, {"cvode", HYPOFAB_CVODE}, {"ida", HYPOFAB_IDA}};
+static const cyaml_strval_t frame_names[] = {
+    {"xyz", DECK_FRAME_XYZ}, {"stress", DECK_FRAME_STRESS}, {"delta", DECK_FRAME_DELTA}};
+static const cyaml_strval_t imposed_names[] = {{"strain", HYPOFAB_IMPOSE_STRAIN}, {"stress", HYPOFAB_IMPOSE_STRESS}};
 static const cyaml_strval_t axis_names[] = {{"x", 0}, {"y", 1}, {"z", 2}};
 /* libcyaml's own booleans take any text but "false", "no" and "0" for true. */
 static const cyaml_strval_t boolean_names[] = {{"false", 0}, {"true", 1}};
@@ -101,16 +104,32 @@ static const cyaml_schema_field_t test_fields[] = {
     CYAML_FIELD_SEQUENCE("steps", CYAML_FLAG_POINTER, deck_test, steps, &step_value, 1, CYAML_UNLIMITED),
     CYAML_FIELD_END};
 
-static const cyaml_schema_field_t series_fields[] = {TEXT("name", deck_series, name), TEXT("state", deck_series, state),
+static const cyaml_schema_field_t series_fields[] = {TEXT("name", deck_series, name),
+                                                     OPTIONAL_TEXT("state", deck_series, state),
+                                                     OPTIONAL_TEXT("after", deck_series, after),
+                                                     CYAML_FIELD_UINT_PTR("step", OPTIONAL, deck_series, step),
                                                      CHOICE("intergranular", deck_series, intergranular, boolean_names),
                                                      CYAML_FIELD_END};
 static const cyaml_schema_value_t series_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_series, series_fields)};
 
+#define TENSOR(key, structure, member) \
+  CYAML_FIELD_SEQUENCE_FIXED(key, CYAML_FLAG_POINTER, structure, member, &number, 6)
+static const cyaml_schema_field_t plane_fields[] = {TENSOR("first", deck_plane, first),
+                                                    TENSOR("second", deck_plane, second), CYAML_FIELD_END};
+
 static const cyaml_schema_field_t envelope_fields[] = {
     TEXT("name", deck_envelope, name),
-    CYAML_FIELD_ENUM("axis", CYAML_FLAG_STRICT, deck_envelope, axis, axis_names, CYAML_ARRAY_LEN(axis_names)),
+    CHOICE("axis", deck_envelope, axis, axis_names),
+    CYAML_FIELD_MAPPING_PTR("plane", OPTIONAL_POINTER, deck_envelope, plane, plane_fields),
+    CHOICE("principal", deck_envelope, principal, frame_names),
+    CHOICE("all_components", deck_envelope, all_components, boolean_names),
+    CHOICE("impose", deck_envelope, impose, imposed_names),
     CYAML_FIELD_UINT_PTR("probes", OPTIONAL, deck_envelope, probes),
     CYAML_FIELD_FLOAT_PTR("size", OPTIONAL, deck_envelope, size),
+    CHOICE("unload", deck_envelope, unload, boolean_names),
+    CYAML_FIELD_FLOAT_PTR("tolerance", OPTIONAL, deck_envelope, tolerance),
+    CYAML_FIELD_UINT_PTR("threads", OPTIONAL, deck_envelope, threads),
+    CHOICE("vtk", deck_envelope, vtk, boolean_names),
     CYAML_FIELD_SEQUENCE("series", CYAML_FLAG_POINTER, deck_envelope, series, &series_value, 1, CYAML_UNLIMITED),
     CYAML_FIELD_END};
 
@@ -134,5 +153,7 @@ static const cyaml_schema_field_t deck_fields[] = {
 const cyaml_schema_value_t deck_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, deck, deck_fields)};
 
 const char *deck_unit_name(deck_unit unit) { return unit_names[unit].str; }
+
+const char *deck_frame_name(deck_frame frame) { return frame_names[frame].str; }
 
 const char *deck_sign_name(deck_sign sign) { return sign_names[sign].str; }

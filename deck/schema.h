@@ -94,17 +94,36 @@ typedef struct deck_test {
   unsigned steps_count;
 } deck_test;
 
+/** A state, or that at the end of a test or of one of its steps. */
 typedef struct deck_series {
   char *name;
   char *state;
+  char *after;
+  unsigned *step;
   int *intergranular;
 } deck_series;
 
+/** Axes of the sphere of principal directions. */
+typedef enum deck_frame { DECK_FRAME_XYZ, DECK_FRAME_STRESS, DECK_FRAME_DELTA } deck_frame;
+
+typedef struct deck_plane {
+  double *first, *second;
+} deck_plane;
+
+/** Directions: exactly one of axis, plane, principal, all_components. */
 typedef struct deck_envelope {
   char *name;
-  int axis;
+  int *axis;
+  deck_plane *plane;
+  int *principal;
+  int *all_components;
+  int *impose; /**< hypofab_imposed */
   unsigned *probes;
   double *size;
+  int *unload;
+  double *tolerance;
+  unsigned *threads;
+  int *vtk;
   deck_series *series;
   unsigned series_count;
 } deck_envelope;
@@ -126,8 +145,9 @@ typedef struct deck {
 /** Schema of a whole deck, for libcyaml and for deck_check_form (form.h). */
 extern const cyaml_schema_value_t deck_schema;
 
-/** Name of a unit or a sign as decks write it. */
+/** Name of a unit, a sign or a frame as decks write it. */
 const char *deck_unit_name(deck_unit unit);
+const char *deck_frame_name(deck_frame frame);
 const char *deck_sign_name(deck_sign sign);
 
 #endif

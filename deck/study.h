@@ -29,16 +29,26 @@ typedef struct study_test {
   unsigned n_steps;
 } study_test;
 
-/** One curve of an envelope: a state, with the material it is probed with. */
+/** One curve or surface of an envelope: a state, with the material it is probed with. */
 typedef struct study_series {
   hypofab_material material;
-  hypofab_state state;
+  hypofab_state state; /**< with after_test: where the test starts */
+  bool after_test;     /**< probe the state at the end of step number n_steps of tests[test] instead */
+  unsigned test, n_steps;
+  bool plain; /**< probe without intergranular strain */
 } study_series;
 
+/** Sets of directions. */
+typedef enum study_directions { STUDY_AXISYMMETRIC, STUDY_PLANE, STUDY_PRINCIPAL, STUDY_ALL } study_directions;
+
 typedef struct study_envelope {
-  int axis;
+  study_directions directions;
+  int axis;               /**< of the axisymmetric plane */
+  deck_frame frame;       /**< of the principal directions */
+  hypofab_subspace space; /**< in a frame of the state: of the axes x, y, z */
+  hypofab_probe_options options;
   unsigned probes;
-  double size;
+  bool vtk;
   study_series *series;
   unsigned n_series;
 } study_envelope;

@@ -1,35 +1,10 @@
-#include <jansson.h>
-#include <math.h>
-#include <string.h>
-
-#include "deck/output.h"
+#include "deck/json_values.h"
 #include "deck/run.h"
-
-/* Digits that give a double back exactly. */
-#define ALL_DIGITS JSON_REAL_PRECISION(17)
-
-/* JSON has no NaN or infinity: null. */
-static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
-
-static json_t *numbers(const double *value, int n) {
-  json_t *array = json_array();
-  for (int i = 0; i < n; ++i) json_array_append_new(array, number(value[i]));
-  return array;
-}
-
-static json_t *material_object(const hypofab_material *material) {
-  json_t *object = json_object();
-  hypofab_parameter_info info;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
-    if (!hypofab_parameter_describe(i, &info))
-      json_object_set_new(object, info.name, number(((const double *)material)[i]));
-  return object;
-}
 
 static json_t *row_object(const hypofab_study *study, const hypofab_row *row) {
   json_t *object = json_object();
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) /* + 0.0: no negative zeros */
-    json_object_set_new(object, hypofab_quantity_name(i), number(study_quantity_sign(study, i) * row->value[i] + 0.0));
+  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i)
+    json_object_set_new(object, hypofab_quantity_name(i), json_number(study_quantity_sign(study, i) * row->value[i]));
   return object;
 }
 
@@ -38,10 +13,10 @@ static json_t *fabric_object(const study_state *state, const deck_delta *given) 
   json_t *object = json_object();
   json_object_set_new(object, "source", json_string(given->contacts ? given->contacts : "fabric tensor in the deck"));
   json_object_set_new(object, "contacts", fabric->contacts ? json_integer(fabric->contacts) : json_null());
-  json_object_set_new(object, "fabric", numbers(fabric->fabric, 6));
-  json_object_set_new(object, "anisotropy", number(fabric->anisotropy));
-  json_object_set_new(object, "c", number(state->c));
-  json_object_set_new(object, "weight", number(state->map.weight));
+  json_object_set_new(object, "fabric", json_numbers(fabric->fabric, 6, 1.0));
+  json_object_set_new(object, "anisotropy", json_number(fabric->anisotropy));
+  json_object_set_new(object, "c", json_number(state->c));
+  json_object_set_new(object, "weight", json_number(state->map.weight));
   return object;
 }
 
@@ -59,7 +34,7 @@ static json_t *steps_array(const hypofab_study *study, unsigned test, const stud
     json_object_set_new(step, "name", name ? json_string(name) : json_null());
     json_object_set_new(step, "reached", json_boolean(reached));
     json_object_set_new(step, "end", row_object(study, &result->ends[i]));
-    json_object_set_new(step, "secant_stiffness", number(secant_stiffness(&result->start, &result->ends[i])));
+    json_object_set_new(step, "secant_stiffness", json_number(secant_stiffness(&result->start, &result->ends[i])));
     json_array_append_new(array, step);
   }
   return array;
@@ -81,7 +56,7 @@ static json_t *test_object(const hypofab_study *study, unsigned index, const stu
   json_object_set_new(object, "integrator_steps", json_integer(result->integrator_steps));
   json_object_set_new(object, "evaluations", json_integer(result->evaluations));
   json_object_set_new(object, "state", json_string(study->deck->tests[index].state));
-  json_object_set_new(object, "material", material_object(&study->materials[state->material]));
+  json_object_set_new(object, "material", json_of_material(&study->materials[state->material]));
   if (state->has_fabric)
     json_object_set_new(object, "fabric", fabric_object(state, study->deck->states[study->tests[index].state].delta));
   json_object_set_new(object, "initial", result->rows ? row_object(study, &result->start) : json_null());
@@ -90,29 +65,10 @@ static json_t *test_object(const hypofab_study *study, unsigned index, const stu
 }
 
 hypofab_status study_write_summary(const hypofab_study *study, const char *directory, const study_result *results) {
-  const char *slash = strrchr(study->path, '/');
-  json_t *summary = json_object();
-  json_object_set_new(summary, "hypofab", json_string(hypofab_version()));
-  json_object_set_new(summary, "deck", json_string(slash ? slash + 1 : study->path));
-  json_object_set_new(summary, "title", study->deck->title ? json_string(study->deck->title) : json_null());
-  json_object_set_new(summary, "unit", json_string(deck_unit_name(study->unit)));
-  json_object_set_new(summary, "sign", json_string(deck_sign_name(study->sign)));
+  json_t *summary = json_of_study(study);
   json_t *tests = json_array();
   for (unsigned i = 0; i < study->deck->tests_count; ++i)
     json_array_append_new(tests, test_object(study, i, &results[i]));
   json_object_set_new(summary, "tests", tests);
-
-  output_file file;
-  hypofab_status status = output_open(&file, directory, "summary.json");
-  if (!status) {
-    if (json_dumpf(summary, file.stream, JSON_INDENT(2) | ALL_DIGITS) == 0) {
-      fputc('\n', file.stream);
-      status = output_commit(&file);
-    } else {
-      output_discard(&file);
-      status = hypofab_fail(HYPOFAB_IO_ERROR, "%s/summary.json: cannot be written", directory);
-    }
-  }
-  json_decref(summary);
-  return status;
+  return json_write(summary, directory, "summary.json");
 }

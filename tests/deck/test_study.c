@@ -75,7 +75,7 @@ static const char *deck_in(const char *unit, double factor, int sign) {
 
 static bool is_stress(const char *name) {
   return strncmp(name, "sig_", 4) == 0 || strncmp(name, "response_", 9) == 0 || !strcmp(name, "p") ||
-         !strcmp(name, "q");
+         !strcmp(name, "q") || !strcmp(name, "stiffness") || !strcmp(name, "distance");
 }
 
 static bool changes_sign(const char *name) {
