@@ -11,6 +11,7 @@ module hypofab_fabric
   private
   public :: fabric_t, initial_delta_t
   public :: add_normals, describe_fabric, count_coordination, map_to_delta, weight_of_anisotropy
+  public :: find_principal, principal_axes
 
   real(wp), parameter :: unit_tensor(6) = [1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
 
@@ -20,6 +21,7 @@ module hypofab_fabric
     real(wp) :: fabric(6), deviatoric_fabric(6), anisotropy
     real(wp) :: principal_values(3), principal_directions(3, 3)
     real(wp) :: coordination_number, mechanical_coordination_number
+    integer(c_int64_t) :: rattlers
   end type fabric_t
 
   !> hypofab_initial_delta of hypofab.h, member by member.
@@ -78,6 +80,7 @@ contains
     fabric%particles = 0
     fabric%coordination_number = ieee_value(1.0_wp, ieee_quiet_nan)
     fabric%mechanical_coordination_number = ieee_value(1.0_wp, ieee_quiet_nan)
+    fabric%rattlers = -1
     fabric%fabric = tensor
     fabric%deviatoric_fabric = 7.5_wp * (tensor - unit_tensor / 3.0_wp)
     fabric%anisotropy = sqrt(1.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
@@ -99,6 +102,7 @@ contains
     fabric%contacts = contacts
     fabric%particles = particles
     fabric%coordination_number = quotient(2 * contacts, particles)
+    fabric%rattlers = merge(none + one, -1_c_int64_t, none >= 0)
     if (none < 0) then
       fabric%mechanical_coordination_number = quotient(0_c_int64_t, 0_c_int64_t)
     else
@@ -154,6 +158,14 @@ contains
       q = ieee_value(1.0_wp, ieee_quiet_nan)
     end if
   end function quotient
+
+  !> find_principal for C.
+  function principal_axes(tensor, values, directions) result(info) bind(C, name='hypofab_principal_axes')
+    real(wp), intent(in) :: tensor(6)
+    real(wp), intent(out) :: values(3), directions(3, 3)
+    integer(c_int) :: info
+    call find_principal(tensor, values, directions, info)
+  end function principal_axes
 
   !> Principal values (largest first) and directions (columns, right-handed) of a symmetric tensor.
   !>
