@@ -19,6 +19,8 @@ int cmd_fabric(int argc, char **argv);
 
 /** Changes of fabric between snapshots. */
 int cmd_changes(int argc, char **argv);
+/** All fabric and force descriptors of contact lists. */
+int cmd_describe(int argc, char **argv);
 
 /** Initial intergranular strain of a contact list or a fabric tensor. */
 int cmd_delta(int argc, char **argv);

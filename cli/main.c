@@ -18,6 +18,7 @@ static const struct command {
     {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
     {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},
     {"changes", cmd_changes, "contacts lost, gained and turned between snapshots, and the fabric they change"},
+    {"describe", cmd_describe, "everything that the contacts of one sample, or of a series, tell of fabric and forces"},
     {"delta", cmd_delta, "initial intergranular strain from a contact list or a fabric tensor"},
 };
 

@@ -9,7 +9,8 @@
 
 #include "fabric2delta/direction_bins.h"
 
-/** What is fitted: E0 (1 + P:nn), f0 (1 + Q:nn), f0 (T n - (n.T n) n). NaN where there are too few bins with contacts. */
+/** What is fitted: E0 (1 + P:nn), f0 (1 + Q:nn), f0 (T n - (n.T n) n). NaN where there are too few bins with contacts.
+ */
 typedef struct bin_fit {
   double contact[6], mean_normal_force, normal[6], tangential[6];
 } bin_fit;

@@ -35,7 +35,7 @@ hypofab_status direction_bins_make(direction_bins *bins, int dimension, int want
 void direction_bins_add(direction_bins *bins, const contact *block, size_t n);
 
 /**
- * @brief Visit the points of a quadrature over a bin; even harmonics of degree 8 are averaged to rounding.
+ * @brief Visit the points of a quadrature over a bin.
  * @param at called with each point, a unit vector, and its share; the shares of a bin add to 1
  * @return HYPOFAB_NO_MEMORY
  */

@@ -27,7 +27,7 @@ contains
     moments%directions = moments%directions + 1.0_wp
     moments%total = moments%total + weight
     moments%second = moments%second + &
-                     weight * [n(1) * n(1), n(2) * n(2), n(3) * n(3), n(1) * n(2), n(1) * n(3), n(2) * n(3)]
+                     weight*[n(1) * n(1), n(2) * n(2), n(3) * n(3), n(1) * n(2), n(1) * n(3), n(2) * n(3)]
     moments%fourth = moments%fourth + weight * fourth_power(n)
   end subroutine add_direction
 

@@ -19,7 +19,7 @@ module hypofab_rank4
   integer, parameter :: at(3, 3) = reshape([1, 4, 5, 4, 2, 6, 5, 6, 3], [3, 3])
   !> The four indices of each component of rank 4.
   integer, parameter :: indices(4, 15) = reshape( &
-                        [1, 1, 1, 1, 1, 1, 1, 2, 1, 1, 1, 3, 1, 1, 2, 2, 1, 1, 2, 3, 1, 1, 3, 3, 1, 2, 2, 2, 1, 2, 2, 3, &
+                      [1, 1, 1, 1, 1, 1, 1, 2, 1, 1, 1, 3, 1, 1, 2, 2, 1, 1, 2, 3, 1, 1, 3, 3, 1, 2, 2, 2, 1, 2, 2, 3, &
                          1, 2, 3, 3, 1, 3, 3, 3, 2, 2, 2, 2, 2, 2, 2, 3, 2, 2, 3, 3, 2, 3, 3, 3, 3, 3, 3, 3], [4, 15])
 
 contains
@@ -43,7 +43,7 @@ contains
   pure function components_of(m) result(a)
     real(wp), intent(in) :: m(3, 3)
     real(wp) :: a(6)
-    a = 0.5_wp * [2.0_wp * m(1, 1), 2.0_wp * m(2, 2), 2.0_wp * m(3, 3), m(1, 2) + m(2, 1), m(1, 3) + m(3, 1), &
+    a = 0.5_wp*[2.0_wp * m(1, 1), 2.0_wp * m(2, 2), 2.0_wp * m(3, 3), m(1, 2) + m(2, 1), m(1, 3) + m(3, 1), &
                   m(2, 3) + m(3, 2)]
   end function components_of
 

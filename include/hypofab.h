@@ -606,7 +606,7 @@ typedef struct hypofab_fabric {
   double coordination_number;            /**< 2 N_c/N_p; NaN when not known */
   double mechanical_coordination_number; /**< (2 N_c - N_1)/(N_p - N_0 - N_1): without particles that have
                                               fewer than two contacts (Thornton 2000); NaN when not known */
-  int64_t rattlers; /**< N_0 + N_1, particles with fewer than two contacts; -1 when not known */
+  int64_t rattlers;                      /**< N_0 + N_1, particles with fewer than two contacts; -1 when not known */
 } hypofab_fabric;
 
 /** Where the data stand in a contact list. NULL or 0 in a field takes its default. */

@@ -28,14 +28,14 @@ typedef enum hypofab_weight {
 
 /** Fabric tensors of one set of directions (Kanatani 1984). */
 typedef struct hypofab_direction_fabric {
-  int64_t count; /**< directions */
-  double total;  /**< sum of their weights */
+  int64_t count;                  /**< directions */
+  double total;                   /**< sum of their weights */
   double first2[6], first4[15];   /**< first kind: moments <n n>, <n n n n> */
   double second2[6], second4[15]; /**< second kind: density f0 F:nn, f0 F::nnnn */
   double third2[6], third4[15];   /**< third kind: density f0 (1 + D:nn + D::nnnn), traceless */
   double anisotropy; /**< of D of rank 2: sqrt(3/2 D:D), paper 000's a; in the plane sqrt(1/2 D:D), paper 003's a_n */
   double deviator;   /**< largest minus smallest principal value of N (paper 002) */
-  double principal_values[3]; /**< of N, largest first; in the plane the third is 0, along z */
+  double principal_values[3];        /**< of N, largest first; in the plane the third is 0, along z */
   double principal_directions[3][3]; /**< row i: unit vector of principal_values[i] */
   double angle; /**< in the plane: the first of them from x towards y [deg], (-90, 90]; NaN in space */
 } hypofab_direction_fabric;
@@ -46,34 +46,35 @@ typedef struct hypofab_harmonics {
   double power[HYPOFAB_N_DEGREES];         /**< sum of c_i^2 of this degree */
   double isotropy_p[HYPOFAB_N_DEGREES];    /**< probability of at least this power if normals were isotropic and
                                                 independent; NaN for degree 0 */
-  double r_squared[HYPOFAB_N_DEGREES]; /**< share of the scatter of bin counts explained by degrees up to this one */
-  double chi_squared[HYPOFAB_N_DEGREES];   /**< sum (count - expected)^2/expected over the bins */
-  double chi_squared_p[HYPOFAB_N_DEGREES]; /**< probability of at least this chi_squared if the series were right */
+  double r_squared[HYPOFAB_N_DEGREES];   /**< share of the scatter of bin counts explained by degrees up to this one */
+  double chi_squared[HYPOFAB_N_DEGREES]; /**< sum (count - expected)^2/expected over the bins */
+  double chi_squared_p[HYPOFAB_N_DEGREES];   /**< probability of at least this chi_squared if the series were right */
   int degrees_of_freedom[HYPOFAB_N_DEGREES]; /**< of chi_squared; 0: too few bins for this degree, the above are NaN */
   int bins;                                  /**< bins of equal size on the hemisphere or half circle */
 } hypofab_harmonics;
 
-/** Anisotropy over directions of contacts, normal forces, tangential forces (paper 003, Eqs. 3, 5, 6) and branch lengths. */
+/** Anisotropy over directions of contacts, normal forces, tangential forces (paper 003, Eqs. 3, 5, 6) and branch
+ * lengths. */
 typedef struct hypofab_force_anisotropy {
-  double mean_normal_force;              /**< f0, the average over directions (not over contacts) [force] */
+  double mean_normal_force;                    /**< f0, the average over directions (not over contacts) [force] */
   double contact[6], normal[6], tangential[6]; /**< tensors: E0 (1 + P:nn), f0 (1 + Q:nn), f0 (T n - (n.T n) n) */
-  double branch[6];                      /**< l0 (1 + B:nn) of branch lengths */
-  double a_n, a_f, a_t, a_b;             /**< their sizes: sqrt(3/2 a:a), in the plane sqrt(1/2 a:a) */
+  double branch[6];                            /**< l0 (1 + B:nn) of branch lengths */
+  double a_n, a_f, a_t, a_b;                   /**< their sizes: sqrt(3/2 a:a), in the plane sqrt(1/2 a:a) */
   double direction_n[3], direction_f[3], direction_t[3]; /**< directions of their largest principal values */
-  double phi_n, phi_f, phi_t;            /**< the same in the plane, from x towards y [deg] */
-  double sin_phi;                        /**< mobilised friction of the stress they stand for, from its principal values */
-  double sin_phi_short;                  /**< the same without products of anisotropies */
-  double q_over_p, q_over_p_short;       /**< its stress ratio, in space */
-  double sin_phi_coaxial;       /**< in the plane: (a_n + a_f + a_t)/(2 + a_n a_f), paper 003, Eq. 8 */
-  double sin_phi_coaxial_short; /**< in the plane: (a_n + a_f + a_t)/2, paper 003, Eq. 9 */
+  double phi_n, phi_f, phi_t;                            /**< the same in the plane, from x towards y [deg] */
+  double sin_phi;                  /**< mobilised friction of the stress they stand for, from its principal values */
+  double sin_phi_short;            /**< the same without products of anisotropies */
+  double q_over_p, q_over_p_short; /**< its stress ratio, in space */
+  double sin_phi_coaxial;          /**< in the plane: (a_n + a_f + a_t)/(2 + a_n a_f), paper 003, Eq. 8 */
+  double sin_phi_coaxial_short;    /**< in the plane: (a_n + a_f + a_t)/2, paper 003, Eq. 9 */
 } hypofab_force_anisotropy;
 
 /** A stress tensor averaged over the sample, tension positive. */
 typedef struct hypofab_contact_stress {
-  double total[3][3];      /**< -(1/V) sum f_i l_j, not quite symmetric when particles are not quite at rest */
-  double normal[3][3];     /**< the part of normal forces */
-  double tangential[3][3]; /**< the part of tangential forces */
-  double p, q;             /**< of the symmetric part; in the plane p = -(s1 + s2)/2, q = |s1 - s2| (paper 003) */
+  double total[3][3];       /**< -(1/V) sum f_i l_j, not quite symmetric when particles are not quite at rest */
+  double normal[3][3];      /**< the part of normal forces */
+  double tangential[3][3];  /**< the part of tangential forces */
+  double p, q;              /**< of the symmetric part; in the plane p = -(s1 + s2)/2, q = |s1 - s2| (paper 003) */
   double q_over_p, sin_phi; /**< sin_phi = (s1 - s3)/(s1 + s3) of principal values, in the plane of the two; both are
                                  known without the volume */
   double normal_share, tangential_share; /**< of the two parts in q: projected on the deviator; they add to 1 */
@@ -89,17 +90,17 @@ typedef struct hypofab_network {
 
 /** Everything that is computed from the contacts of one sample. */
 typedef struct hypofab_description {
-  int dimension;         /**< 3 or 2 */
-  hypofab_fabric fabric; /**< as hypofab_fabric_read gives it; in the plane with the factors of the plane:
-                              F = 4 (N - 1/2 1), a = sqrt(1/2 F:F) */
-  double fabric_per_particle[6];       /**< (2/N_p) sum n n, N_p without rattlers, which have fewer than two contacts
-                                            (paper 001, Eq. 1); its trace is paper 001's Z */
-  double anisotropy_per_particle;      /**< paper 001's A: largest minus smallest principal value of it */
+  int dimension;                  /**< 3 or 2 */
+  hypofab_fabric fabric;          /**< as hypofab_fabric_read gives it; in the plane with the factors of the plane:
+                                       F = 4 (N - 1/2 1), a = sqrt(1/2 F:F) */
+  double fabric_per_particle[6];  /**< (2/N_p) sum n n, N_p without rattlers, which have fewer than two contacts
+                                       (paper 001, Eq. 1); its trace is paper 001's Z */
+  double anisotropy_per_particle; /**< paper 001's A: largest minus smallest principal value of it */
   hypofab_direction_fabric weighted[HYPOFAB_N_WEIGHTS]; /**< fabric of contact normals */
-  hypofab_direction_fabric branch;     /**< fabric of the directions of branch vectors */
-  hypofab_direction_fabric long_axes;  /**< fabric of the long axes of particles (paper 003) */
-  double mean_branch_length;           /**< [length] */
-  double mean_normal_force, mean_shear_force; /**< over contacts [force] */
+  hypofab_direction_fabric branch;                      /**< fabric of the directions of branch vectors */
+  hypofab_direction_fabric long_axes;                   /**< fabric of the long axes of particles (paper 003) */
+  double mean_branch_length;                            /**< [length] */
+  double mean_normal_force, mean_shear_force;           /**< over contacts [force] */
   hypofab_harmonics harmonics;
   hypofab_force_anisotropy from_moments; /**< by averages over directions */
   hypofab_force_anisotropy from_bins;    /**< by least squares on bins */
@@ -121,14 +122,14 @@ typedef struct hypofab_describe_options {
 /** Contacts in memory. Pointers may be NULL, apart from normal; all arrays have `count` rows. */
 typedef struct hypofab_contacts {
   size_t count;
-  const double *normal;         /**< unit vectors, 3 each, from particle 1 to 2 */
-  const double *branch;         /**< x2 - x1, 3 each [length] */
-  const double *normal_force;   /**< > 0: compression [force] */
-  const double *shear_force;    /**< tangential force on particle 2, 3 each [force] */
-  const double *area;           /**< [length^2] */
-  const int64_t *id1, *id2;     /**< particles, 0 or more */
-  int64_t particles;            /**< N_p; 0: the number of different ids */
-  const double *long_axes;      /**< of particles, 3 each, any length but zero */
+  const double *normal;       /**< unit vectors, 3 each, from particle 1 to 2 */
+  const double *branch;       /**< x2 - x1, 3 each [length] */
+  const double *normal_force; /**< > 0: compression [force] */
+  const double *shear_force;  /**< tangential force on particle 2, 3 each [force] */
+  const double *area;         /**< [length^2] */
+  const int64_t *id1, *id2;   /**< particles, 0 or more */
+  int64_t particles;          /**< N_p; 0: the number of different ids */
+  const double *long_axes;    /**< of particles, 3 each, any length but zero */
   size_t long_axis_count;
 } hypofab_contacts;
 
