@@ -30,6 +30,7 @@ const char *hypofab_status_text(hypofab_status status) {
     case HYPOFAB_NOT_UNIQUE: return "loss of uniqueness: two strain rates satisfy the prescribed rates";
     case HYPOFAB_OUT_OF_DOMAIN: return "the state left the model's domain";
     case HYPOFAB_STEP_LIMIT: return "the bound on work was reached";
+    case HYPOFAB_LIQUEFACTION: return "liquefaction: the mean effective stress vanished at constant volume";
     case HYPOFAB_TARGET_NOT_REACHED: return "the step ran its maximum time without meeting its end condition";
     case HYPOFAB_INTERRUPTED: return "interrupted";
     case HYPOFAB_BAD_MATERIAL: return "inadmissible material parameter";

@@ -70,9 +70,10 @@ static inline double study_sign(const hypofab_study *study) {
   return study->sign == DECK_COMPRESSION_POSITIVE ? -1.0 : 1.0;
 }
 
-/** The same for a quantity: stress, strain, eps_v and delta have a sign to change; for p, q, eps_q, rho it is +1. */
+/** The same for a quantity: stress, strain, eps_v and delta have a sign to change; p, q, pore pressure keep theirs. */
 static inline double study_quantity_sign(const hypofab_study *study, hypofab_quantity quantity) {
-  const bool has_sign = (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_DELTA_YZ) || quantity == HYPOFAB_EPS_V;
+  const bool has_sign = (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_DELTA_YZ) || quantity == HYPOFAB_EPS_V ||
+                        (quantity >= HYPOFAB_TOT_XX && quantity <= HYPOFAB_TOT_ZZ);
   return has_sign ? study_sign(study) : 1.0;
 }
 

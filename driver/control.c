@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "driver/course.h"
 #include "driver/quantity.h"
 
 /* Smallest ratio of pivots, rows scaled to 1, that still counts as a regular control. */
@@ -24,12 +25,14 @@ typedef struct solved {
   double direction[6];  /* deltahat */
   double reversal[6];   /* D on the reversal branch */
   double response[6];   /* z = S^-1 A jump */
+  double rate[6];       /* right-hand sides of the conditions */
 } solved;
 
 static hypofab_status solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
                             solved *s) {
   hypofab_status status = hypofab_linear_parts(material, state, s->stiffness, s->jump, s->direction, &s->model);
   if (status) return status;
+  course_rates(step, state->stress, s->rate);
 
   /* S = A M + B and the right-hand sides c and A jump, rows scaled: stress and strain conditions differ by 1e5. */
   double matrix[36], rhs[12];
@@ -47,7 +50,7 @@ static hypofab_status solve(const hypofab_material *material, const hypofab_stat
     if (largest == 0.0)
       return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
     for (int j = 0; j < 6; j++) matrix[6 * i + j] = row[j] / largest;
-    rhs[2 * i] = step->rate[i] / largest;
+    rhs[2 * i] = s->rate[i] / largest;
     rhs[2 * i + 1] = along_jump / largest;
   }
   size_t order[6];
@@ -93,15 +96,15 @@ static hypofab_status plain_size(const solved *s, double *size) {
 }
 
 /* A component that a condition prescribes alone takes the prescribed rate to the last bit. */
-static void impose(const hypofab_step *step, control_rates *rates) {
+static void impose(const hypofab_step *step, const double rate[6], control_rates *rates) {
   for (int i = 0; i < 6; i++) {
     int n_stress = 0, n_strain = 0, k_stress = 0, k_strain = 0;
     for (int j = 0; j < 6; j++) {
       if (step->on_stress[i][j] != 0.0) n_stress++, k_stress = j;
       if (step->on_strain[i][j] != 0.0) n_strain++, k_strain = j;
     }
-    if (n_stress == 1 && n_strain == 0) rates->stress_rate[k_stress] = step->rate[i] / step->on_stress[i][k_stress];
-    if (n_strain == 1 && n_stress == 0) rates->stretching[k_strain] = step->rate[i] / step->on_strain[i][k_strain];
+    if (n_stress == 1 && n_strain == 0) rates->stress_rate[k_stress] = rate[i] / step->on_stress[i][k_stress];
+    if (n_strain == 1 && n_stress == 0) rates->stretching[k_strain] = rate[i] / step->on_strain[i][k_strain];
   }
 }
 
@@ -126,7 +129,7 @@ hypofab_status control_solve(const hypofab_material *material, const hypofab_sta
     rates->stress_rate[i] = factor * s.jump[i];
     for (int j = 0; j < 6; j++) rates->stress_rate[i] += s.stiffness[6 * i + j] * rates->stretching[j];
   }
-  impose(step, rates);
+  impose(step, s.rate, rates);
   const double size = sqrt(dot(rates->stretching, rates->stretching));
   rates->along = size > 0.0 ? dot(s.direction, rates->stretching) / size : 0.0;
   return HYPOFAB_OK;
@@ -158,14 +161,21 @@ int control_prescribes(const hypofab_step *step, hypofab_quantity quantity, doub
     *rate = 1.0;
     return 1;
   }
-  /* Is the quantity a combination of the six conditions? Least squares on [A B]^T x = [f_stress f_strain]. */
-  double conditions[72], wanted[12], combination[6], rest[12], tau[6];
-  if (!quantity_coefficients(quantity, wanted, wanted + 6)) return 0;
-  for (int i = 0; i < 6; i++)
+  if (step->turn.on) return 0;
+  /* Is the quantity a combination of the six conditions? Least squares on [A B]^T x = [f_stress f_strain], scaled:
+   * pore water puts large numbers beside ones. */
+  double conditions[72], wanted[12], combination[6], rest[12], tau[6], size[6], unit = 1.0;
+  if (!quantity_coefficients(quantity, step, wanted, wanted + 6)) return 0;
+  for (int j = 0; j < 12; j++) unit = fmax(unit, fabs(wanted[j]));
+  for (int j = 0; j < 12; j++) wanted[j] /= unit;
+  for (int i = 0; i < 6; i++) {
+    size[i] = 1.0;
+    for (int j = 0; j < 6; j++) size[i] = fmax(size[i], fmax(fabs(step->on_stress[i][j]), fabs(step->on_strain[i][j])));
     for (int j = 0; j < 6; j++) {
-      conditions[6 * j + i] = step->on_stress[i][j];
-      conditions[6 * (j + 6) + i] = step->on_strain[i][j];
+      conditions[6 * j + i] = step->on_stress[i][j] / size[i];
+      conditions[6 * (j + 6) + i] = step->on_strain[i][j] / size[i];
     }
+  }
   gsl_matrix_view matrix = gsl_matrix_view_array(conditions, 12, 6);
   gsl_vector_view b = gsl_vector_view_array(wanted, 12), x = gsl_vector_view_array(combination, 6);
   gsl_vector_view residual = gsl_vector_view_array(rest, 12), t = gsl_vector_view_array(tau, 6);
@@ -175,6 +185,6 @@ int control_prescribes(const hypofab_step *step, hypofab_quantity quantity, doub
   gsl_linalg_QR_lssolve(&matrix.matrix, &t.vector, &b.vector, &x.vector, &residual.vector);
   if (gsl_blas_dnrm2(&residual.vector) > singular) return 0;
   *rate = 0.0;
-  for (int i = 0; i < 6; i++) *rate += combination[i] * step->rate[i];
+  for (int i = 0; i < 6; i++) *rate += combination[i] * step->rate[i] * unit / size[i];
   return 1;
 }

@@ -1,262 +1,105 @@
-/* An element test: steps in sequence, rows as they are asked for, each step's end met exactly. */
-#include <math.h>
+/* An element test: steps in sequence, each a sequence of legs, rows as they are asked for. */
 #include <string.h>
 
 #include "base/message.h"
-#include "driver/control.h"
-#include "driver/events.h"
-#include "driver/integrate.h"
-#include "driver/quantity.h"
+#include "driver/course.h"
+#include "driver/cycle.h"
+#include "driver/finding.h"
+#include "driver/leg.h"
+#include "driver/step.h"
 
-/* A value met within this relative distance counts as met. */
-static const double met = 1e-12;
+/* An undrained step ends when p has fallen to this part of what it was: little above the integrator's tolerance. */
+static const double lowest_part_of_p = 1e-5;
 
-/* A test under way. */
-typedef struct run {
-  const hypofab_material *material;
-  integrator *it;
-  hypofab_row_sink sink;
-  void *user;
-  int step_number;
-  double time;
-  test_state state;
-  double delivered; /* time of the last row */
-} run;
-
-/* One step, its schedule worked out. */
-typedef struct schedule {
-  double start_time, end_time; /* end_time: where the step ends or is given up */
-  int end_is_timed;            /* does the end condition come at end_time? */
-  event end;                   /* otherwise it is this event */
-  double row_interval;         /* > 0: rows evenly spaced in time */
-  hypofab_mark row_spacing;    /* otherwise, value > 0: rows evenly spaced in this quantity */
-  double last_row;             /* time or value of the last row */
-  long rows_done;
-} schedule;
-
-static hypofab_status deliver(run *r) {
+/* Non-zero: the sink wants no more. */
+static int send(run *r, int event) {
   hypofab_row row;
-  quantity_row(r->material, r->time, &r->state, r->step_number, &row);
-  r->delivered = r->time;
-  if (r->sink && r->sink(&row, r->user)) return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted at time %g", r->time);
-  return HYPOFAB_OK;
+  if (!r->sink) return 0;
+  quantity_row(&r->observer, r->time, &r->state, r->step_number, &row);
+  row.event = event;
+  row.stop = event == HYPOFAB_EVENT_STOP ? r->stop : -1;
+  return r->sink(&row, r->user);
 }
 
-/* When a step without max_time is given up. */
-static double default_duration(const hypofab_step *step, const test_state *state) {
-  double strain_rate = 0.0, stress_rate = 0.0, pressure = 0.0;
-  for (int i = 0; i < 6; i++) {
-    int on_strain = 0;
-    for (int j = 0; j < 6; j++) on_strain |= step->on_strain[i][j] != 0.0;
-    double *rate = on_strain ? &strain_rate : &stress_rate;
-    *rate = fmax(*rate, fabs(step->rate[i]));
+hypofab_status run_deliver(run *r, int event) {
+  return send(r, event) ? hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted at time %g", r->time) : HYPOFAB_OK;
+}
+
+static void remember(const run *r, const hypofab_step *step, double values[HYPOFAB_MAX_STOPS]) {
+  for (int i = 0; i < step->n_stops; i++)
+    values[i] = quantity_value(step->stops[i].mark.quantity, &r->observer, r->time, &r->state);
+}
+
+static hypofab_status run_cycles(run *r, const hypofab_step *step) {
+  cycle_plan plan;
+  hypofab_step leg = *step;
+  hypofab_status status = cycle_begin(r, step, &plan);
+  for (long i = 0; !status && i < plan.legs; i++) {
+    int kept;
+    cycle_leg(&plan, i, &leg, &kept);
+    status = leg_run(r, &leg);
+    if (status || r->stop >= 0) return status;
+    if (i == 2 * step->cycle.count) break; /* the way back to the start ends without a reversal */
+    r->observer.half_cycles += 1.0;
+    remember(r, step, r->last_reversal);
+    if (kept && i + 1 < plan.legs) status = run_deliver(r, HYPOFAB_EVENT_REVERSAL);
   }
-  for (int i = 0; i < 3; i++) pressure -= state->material.stress[i] / 3.0;
-  return strain_rate > 0.0 ? 1.0 / strain_rate : stress_rate > 0.0 ? 1e4 * pressure / stress_rate : INFINITY;
+  return status;
 }
 
-static int is_known(hypofab_quantity quantity) { return (unsigned)quantity < HYPOFAB_N_QUANTITIES; }
-
-/* Is a step well-formed? */
-static hypofab_status check_step(const hypofab_step *step, int number) {
-  if (!is_known(step->until.quantity) || !isfinite(step->until.value))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "step %d: until needs a known quantity and a finite value", number);
-  if (step->rows < 0)
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "step %d: rows is %d, expected 0 or more", number, step->rows);
-  const hypofab_mark every = step->every;
-  if (step->rows == 0 && every.value != 0.0 &&
-      !(is_known(every.quantity) && every.value > 0.0 && isfinite(every.value)))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "step %d: every needs a known quantity and a value above 0", number);
-  if (!(step->max_time >= 0.0))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "step %d: max_time is %g, expected 0 or more", number, step->max_time);
-  for (int i = 0; i < 6; i++) {
-    double sum = step->rate[i];
-    for (int j = 0; j < 6; j++) sum += step->on_stress[i][j] + step->on_strain[i][j];
-    if (!isfinite(sum)) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "step %d: condition %d is not finite", number, i + 1);
-  }
-  return HYPOFAB_OK;
-}
-
-/* Work out when a step ends and when rows are due. */
-static hypofab_status make_schedule(const run *r, const hypofab_step *step, schedule *s) {
-  const int number = r->step_number + 1;
-  const hypofab_mark until = step->until;
-  memset(s, 0, sizeof *s);
-  s->start_time = s->last_row = r->time;
-  s->end = (event){event_mark, r->material, step, HYPOFAB_PLAIN, until};
-  const char *name = hypofab_quantity_name(until.quantity);
-  const double now = quantity_value(until.quantity, r->material, r->time, &r->state), to_go = until.value - now;
-  double rate, duration = step->max_time > 0.0 ? step->max_time : default_duration(step, &r->state);
-  if (control_prescribes(step, until.quantity, &rate)) {
-    if (fabs(to_go) <= met * fabs(until.value)) {
-      duration = 0.0;
-    } else if (!(to_go / rate > 0.0) || !isfinite(to_go / rate)) {
-      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
-                          "step %d: %s starts at %.9g and changes at the rate %.9g, so it never meets until = %.9g",
-                          number, name, now, rate, until.value);
-    } else if (step->max_time > 0.0 && to_go / rate > duration) {
-      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
-                          "step %d: %s meets until = %.9g after %.9g, beyond max_time = %.9g", number, name,
-                          until.value, to_go / rate, duration);
-    } else {
-      duration = to_go / rate;
-    }
-    s->end_is_timed = 1;
-    if (step->rows > 0) s->row_interval = duration / step->rows;
-  } else {
-    if (!isfinite(duration))
-      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "step %d: every prescribed rate is zero, so nothing ever happens",
-                          number);
-    if (step->rows > 0) s->row_spacing = (hypofab_mark){until.quantity, fabs(to_go) / step->rows};
-  }
-  if (step->rows == 0 && step->every.value > 0.0) {
-    if (control_prescribes(step, step->every.quantity, &rate) && rate != 0.0)
-      s->row_interval = step->every.value / fabs(rate);
-    else
-      s->row_spacing = step->every;
-  }
-  if (s->row_spacing.value > 0.0)
-    s->last_row = quantity_value(s->row_spacing.quantity, r->material, r->time, &r->state);
-  s->end_time = s->start_time + duration;
-  return HYPOFAB_OK;
-}
-
-/* The next row at a fixed time, or the end when it comes first. Counted, not summed, so that rows do not drift. */
-static double next_stop(const schedule *s, int *is_row) {
-  const double next = s->start_time + (double)(s->rows_done + 1) * s->row_interval;
-  *is_row = s->row_interval > 0.0 && next < s->end_time - met * (s->end_time - s->start_time);
-  return *is_row ? next : s->end_time;
-}
-
-/* The row event: the quantity has moved by the spacing since the last row, on whichever side it does. */
-static int next_row_event(const run *r, const schedule *s, double to, const test_state *end, event *e) {
-  const hypofab_mark spacing = s->row_spacing;
-  if (!(spacing.value > 0.0)) return 0;
-  const double moved = quantity_value(spacing.quantity, r->material, to, end) - s->last_row;
-  if (fabs(moved) < spacing.value * (1.0 - met)) return 0;
-  const double value = s->last_row + copysign(spacing.value, moved);
-  const hypofab_mark until = s->end.mark;
-  if (spacing.quantity == until.quantity && fabs(value - until.value) < 1e-9 * spacing.value) return 0; /* the end */
-  *e = (event){event_mark, r->material, NULL, HYPOFAB_PLAIN, {spacing.quantity, value}};
-  return 1;
-}
-
-/* A place inside an integrator step. */
-typedef struct place {
-  const event *what; /* NULL: nothing happens, the place is the end of the integrator step */
-  double time;
-  test_state state;
-  int located; /* the integrator was used to find it and stands elsewhere */
-} place;
-
-/* Replace the place by that of an event that comes earlier. */
-static hypofab_status consider(run *r, const event *e, double to, const test_state *end, place *first) {
-  const double after = e->value(e, to, end);
-  if (e->value == event_branch && after >= 0.0) return HYPOFAB_OK;
-  const double before = e->value(e, r->time, &r->state);
-  double time = r->time;
-  test_state state = r->state;
-  if ((before < 0.0 && after >= 0.0) || (before > 0.0 && after <= 0.0)) {
-    hypofab_status status = event_locate(r->it, e, r->time, &r->state, to, end, &time, &state);
-    first->located = 1;
-    if (status) return status;
-  } else if (e->value != event_branch) {
-    return HYPOFAB_OK; /* not crossed; only a branch can be left from its very edge, where rounding decides the sign */
-  }
-  if (!first->what || time < first->time) first->what = e, first->time = time, first->state = state;
-  return HYPOFAB_OK;
-}
-
-/* Start on the branch that the conditions select; or, having left one, on the other. */
-static hypofab_status start_segment(run *r, const hypofab_step *step, event *branch) {
-  const hypofab_branch left = branch->branch;
-  hypofab_status status = control_choose_branch(r->material, &r->state.material, step, &branch->branch);
-  if (status) return status;
-  if (left == HYPOFAB_LOADING) branch->branch = HYPOFAB_REVERSAL;
-  if (left == HYPOFAB_REVERSAL) branch->branch = HYPOFAB_LOADING;
-  integrator_set_step(r->it, step, branch->branch);
-  return integrator_start(r->it, r->time, &r->state, 0.0);
-}
-
-/* Deal with every event between the current state and the end of an integrator step, until one changes the course. */
-static hypofab_status handle_events(run *r, const hypofab_step *step, schedule *s, event *branch, double to,
-                                    const test_state *end, int *ended, int *whole) {
-  const double next_step = integrator_next_step(r->it);
-  place first = {0};
-  *whole = 0;
-  for (;;) {
-    event row;
-    hypofab_status status = HYPOFAB_OK;
-    first.what = NULL, first.time = to, first.state = *end;
-    if (branch->branch != HYPOFAB_PLAIN) status = consider(r, branch, to, end, &first);
-    if (!status && !s->end_is_timed) status = consider(r, &s->end, to, end, &first);
-    if (!status && next_row_event(r, s, to, end, &row)) status = consider(r, &row, to, end, &first);
-    if (status) return status;
-    r->time = first.time;
-    r->state = first.state;
-    if (first.what == &row) {
-      s->last_row = row.mark.value;
-      status = deliver(r);
-      if (status) return status;
-      continue;
-    }
-    *whole = !first.what;
-    *ended = first.what == &s->end;
-    if (first.what == branch) return start_segment(r, step, branch);
-    return first.located && !*ended ? integrator_start(r->it, r->time, &r->state, next_step) : HYPOFAB_OK;
-  }
-}
-
-/* Integrate a step whose schedule is known to its end. */
-static hypofab_status integrate_step(run *r, const hypofab_step *step, schedule *s) {
-  event branch = {event_branch, r->material, step, HYPOFAB_PLAIN, {HYPOFAB_TIME, 0.0}};
-  hypofab_status status = start_segment(r, step, &branch);
-  int ended = 0;
-  while (!status && !ended) {
-    int is_row, whole;
-    const double stop = next_stop(s, &is_row);
-    double to = r->time;
-    test_state end;
-    status = integrator_advance(r->it, stop, &to, &end);
-    if (!status) status = handle_events(r, step, s, &branch, to, &end, &ended, &whole);
-    if (status || ended || !whole || to < stop) continue;
-    if (is_row) {
-      s->rows_done++;
-      status = deliver(r);
-    } else if (s->end_is_timed) {
-      ended = 1;
-    } else {
-      status = hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "step %d: %s did not meet %.9g within the time %.9g",
-                            r->step_number + 1, hypofab_quantity_name(step->until.quantity), step->until.value,
-                            s->end_time - s->start_time);
-    }
+static hypofab_status run_history(run *r, const hypofab_step *step) {
+  const hypofab_history *history = &step->history;
+  const double start = r->time;
+  hypofab_step leg = *step;
+  hypofab_status status = HYPOFAB_OK;
+  leg.max_time = 0.0;
+  for (int i = 1; !status && i < history->n; i++) {
+    const double duration = history->time[i] - history->time[i - 1];
+    for (int k = 0; k < 6; k++) leg.rate[k] = (history->value[i][k] - history->value[i - 1][k]) / duration;
+    leg.until = (hypofab_mark){HYPOFAB_TIME, start + (history->time[i] - history->time[0])};
+    status = leg_run(r, &leg);
+    if (status || r->stop >= 0) return status;
+    if (i + 1 < history->n && step->rows > 0) status = run_deliver(r, HYPOFAB_EVENT_ROW);
   }
   return status;
 }
 
 /* Run one step. Its last state is a row of its own, also when it stops early. */
 static hypofab_status run_step(run *r, const hypofab_step *step) {
-  schedule s;
-  hypofab_status status = make_schedule(r, step, &s);
-  if (status) return status;
-  const int met_already =
-      !s.end_is_timed && fabs(event_mark(&s.end, r->time, &r->state)) <= met * fabs(step->until.value);
-  if (s.end_time > r->time && !met_already) status = integrate_step(r, step, &s);
-  if (!status || (status < HYPOFAB_BAD_MATERIAL && r->time > r->delivered)) {
-    hypofab_status delivered = deliver(r);
-    if (!status) status = delivered;
+  observer_begin_step(&r->observer, step, &r->state);
+  r->stop = -1;
+  r->lowest_p = lowest_part_of_p * r->observer.p;
+  remember(r, step, r->step_start);
+  remember(r, step, r->last_reversal);
+  hypofab_status status = course_check(step, r->state.material.stress);
+  if (!status) {
+    if (step->cycle.count)
+      status = run_cycles(r, step);
+    else if (step->history.n)
+      status = run_history(r, step);
+    else
+      status = leg_run(r, step);
   }
+  if (!status && r->stop == step->n_stops) status = HYPOFAB_LIQUEFACTION;
+  if (!status) return run_deliver(r, r->stop >= 0 ? HYPOFAB_EVENT_STOP : HYPOFAB_EVENT_END);
+  if (status >= HYPOFAB_BAD_MATERIAL || status == HYPOFAB_INTERRUPTED) return status;
+  status = finding_explain(r, step, status);
+  send(r, -(int)status); /* the finding stands, whether the sink wants more or not */
   return status;
 }
 
 hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_state *initial,
                                 const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
                                 hypofab_row_sink sink, void *user, hypofab_test_outcome *outcome) {
-  run r = {.material = material, .sink = sink, .user = user, .state = {.material = *initial}};
+  run r = {.observer = {.material = material, .axis = 2, .normal = 1},
+           .sink = sink,
+           .user = user,
+           .state = {.material = *initial}};
   hypofab_status status = hypofab_state_check(material, initial);
-  for (int i = 0; !status && i < n_steps; i++) status = check_step(&steps[i], i + 1);
+  for (int i = 0; !status && i < n_steps; i++) status = step_check(&steps[i], i + 1);
   if (!status) status = integrator_create(material, options, &r.it);
-  if (!status) status = deliver(&r);
+  if (!status && n_steps > 0) observer_begin_step(&r.observer, steps, &r.state); /* the first row is in its frame */
+  if (!status) status = run_deliver(&r, HYPOFAB_EVENT_ROW);
   for (int i = 0; !status && i < n_steps; i++) {
     r.step_number = i;
     status = run_step(&r, &steps[i]);
@@ -266,7 +109,7 @@ hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_
     outcome->status = status;
     outcome->step = r.step_number;
     outcome->state = r.state.material;
-    quantity_row(material, r.time, &r.state, r.step_number, &outcome->last);
+    quantity_row(&r.observer, r.time, &r.state, r.step_number, &outcome->last);
     if (r.it) integrator_statistics(r.it, &outcome->integrator_steps, &outcome->evaluations);
   }
   integrator_free(r.it);

@@ -10,14 +10,31 @@
 /* Brent's method halves at worst: enough iterations for a bracket of one part in 2^60. */
 enum { MAX_ITERATIONS = 60 };
 
+/* Angles of axes are the same after half a turn. */
+static double difference(hypofab_quantity quantity, double value, double from) {
+  return quantity == HYPOFAB_ALPHA ? remainder(value - from, 180.0) : value - from;
+}
+
 double event_mark(const event *event, double time, const test_state *state) {
-  return quantity_value(event->mark.quantity, event->material, time, state) - event->mark.value;
+  const hypofab_mark mark = event->mark;
+  return difference(mark.quantity, quantity_value(mark.quantity, event->observer, time, state), mark.value);
+}
+
+double event_distance(const event *event, double time, const test_state *state) {
+  const hypofab_mark mark = event->mark;
+  return fabs(difference(mark.quantity, quantity_value(mark.quantity, event->observer, time, state), event->origin)) -
+         mark.value;
+}
+
+int event_is_between(const event *event, double before, double after) {
+  if (event->value == event_mark && event->mark.quantity == HYPOFAB_ALPHA && fabs(after - before) > 90.0) return 0;
+  return (before < 0.0 && after >= 0.0) || (before > 0.0 && after <= 0.0);
 }
 
 double event_branch(const event *event, double time, const test_state *state) {
   (void)time;
   control_rates rates;
-  if (control_solve(event->material, &state->material, event->step, event->branch, &rates)) return 1.0;
+  if (control_solve(event->observer->material, &state->material, event->step, event->branch, &rates)) return 1.0;
   return event->branch == HYPOFAB_REVERSAL ? -rates.along : rates.along;
 }
 

@@ -10,14 +10,21 @@
 /** A function of time and state whose zero is the event. */
 typedef struct event {
   double (*value)(const struct event *event, double time, const test_state *state);
-  const hypofab_material *material;
-  const hypofab_step *step;
-  hypofab_branch branch;
+  const observer *observer;
+  const hypofab_step *step; /**< of event_branch */
+  hypofab_branch branch;    /**< of event_branch */
   hypofab_mark mark;
+  double origin; /**< of event_distance */
 } event;
 
 /** Zero where the quantity of event->mark has its value. */
 double event_mark(const event *event, double time, const test_state *state);
+
+/** Zero where the quantity of event->mark has its value as distance from event->origin, to whichever side. */
+double event_distance(const event *event, double time, const test_state *state);
+
+/** Do these values at two states enclose a zero? A jump, as of an angle from 90 to -90 degrees, is none. */
+int event_is_between(const event *event, double before, double after);
 
 /** Zero where the loading direction leaves the branch; positive on it. */
 double event_branch(const event *event, double time, const test_state *state);

@@ -31,6 +31,17 @@ const char *hypofab_integrator_name(hypofab_integrator integrator) {
   return (unsigned)integrator < sizeof methods / sizeof *methods ? methods[integrator].name : NULL;
 }
 
+void integrator_sums(const test_state *state, const double D[6], test_state *rate) {
+  double square = 0.0;
+  rate->work = 0.0;
+  for (int i = 0; i < 6; i++) {
+    const double twice = i < 3 ? 1.0 : 2.0;
+    square += twice * D[i] * D[i];
+    rate->work += twice * D[i] * state->material.stress[i];
+  }
+  rate->path = sqrt(square);
+}
+
 int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   (void)time;
   integrator *it = user;
@@ -45,6 +56,7 @@ int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   hypofab_delta_rate(it->material, state->material.delta, solved.stretching, it->branch, rate->material.delta);
   const double volumetric = solved.stretching[0] + solved.stretching[1] + solved.stretching[2];
   rate->material.void_ratio = (1.0 + state->material.void_ratio) * volumetric;
+  integrator_sums(state, solved.stretching, rate);
   return 0;
 }
 
@@ -80,6 +92,9 @@ static void set_absolute(integrator *it, const test_state *state) {
     absolute->strain[i] = it->tolerance * strain_scale;
   }
   absolute->material.void_ratio = it->tolerance * 1e-3;
+  /* The sums follow the rest; near a peak, where strain grows without bound, they must not hold it back. */
+  absolute->path = 1.0;
+  absolute->work = largest_stress;
 }
 
 hypofab_status integrator_create(const hypofab_material *material, const hypofab_test_options *options,
@@ -125,7 +140,6 @@ void integrator_free(integrator *it) {
 }
 
 void integrator_set_step(integrator *it, const hypofab_step *step, hypofab_branch branch) {
-  if (it->step != step) it->step_count = 0;
   it->step = step;
   it->branch = branch;
   it->is_fresh = 1;
@@ -137,6 +151,8 @@ static int stands_at(const integrator *it, double time, const test_state *state)
   return it->method->interpolate && it->memory && !it->is_fresh && time == it->now &&
          memcmp(N_VGetArrayPointer(it->y), state, sizeof *state) == 0;
 }
+
+void integrator_new_leg(integrator *it) { it->step_count = 0; }
 
 hypofab_status integrator_start(integrator *it, double time, const test_state *state, double first_step) {
   if (stands_at(it, time, state)) return HYPOFAB_OK;

@@ -26,6 +26,9 @@ void integrator_free(integrator *it);
 /** Conditions and branch of the right-hand side from now on; the step outlives its use. */
 void integrator_set_step(integrator *it, const hypofab_step *step, hypofab_branch branch);
 
+/** Count steps against the bound from here on. */
+void integrator_new_leg(integrator *it);
+
 /**
  * @brief Start, or start again, from a state. A multistep method that stands there already keeps its past.
  * @param first_step length in time of the first step to try; 0: the integrator chooses

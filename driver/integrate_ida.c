@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "driver/course.h"
 #include "driver/integrate_method.h"
 
 static double dot(const double a[6], const double b[6]) {
@@ -30,15 +31,16 @@ static int residual(sunrealtype time, N_Vector y, N_Vector yp, N_Vector rest, vo
   const test_state *rate = (const test_state *)N_VGetArrayPointer(yp);
   test_state *left = (test_state *)N_VGetArrayPointer(rest);
   const double *D = rate->strain, *stress_rate = rate->material.stress;
-  double reversal[36], jump[6], direction[6], delta_rate[6];
+  double reversal[36], jump[6], direction[6], delta_rate[6], prescribed[6];
   hypofab_branch model;
   it->n_evaluations++;
   it->obstacle = hypofab_linear_parts(it->material, &state->material, reversal, jump, direction, &model);
   if (it->obstacle) return 1; /* recoverable: a smaller step may stay inside the domain */
   const double factor = jump_factor(it->branch, direction, D);
   hypofab_delta_rate(it->material, state->material.delta, D, it->branch, delta_rate);
+  course_rates(it->step, state->material.stress, prescribed);
   for (int i = 0; i < 6; i++) {
-    double along = factor * jump[i], condition = -it->step->rate[i], scale = 0.0;
+    double along = factor * jump[i], condition = -prescribed[i], scale = 0.0;
     for (int j = 0; j < 6; j++) along += reversal[6 * i + j] * D[j];
     for (int j = 0; j < 6; j++) {
       const double on_stress = it->step->on_stress[i][j], on_strain = it->step->on_strain[i][j];
@@ -50,6 +52,10 @@ static int residual(sunrealtype time, N_Vector y, N_Vector yp, N_Vector rest, vo
     left->strain[i] = condition / scale;
   }
   left->material.void_ratio = rate->material.void_ratio - (1.0 + state->material.void_ratio) * (D[0] + D[1] + D[2]);
+  test_state sums;
+  integrator_sums(state, D, &sums);
+  left->path = rate->path - sums.path;
+  left->work = (rate->work - sums.work) / it->stiffness;
   return 0;
 }
 

@@ -37,7 +37,7 @@ struct integrator {
   hypofab_branch branch;
   double tolerance;
   long max_steps;  /* in one step of the test */
-  long step_count; /* since integrator_set_step */
+  long step_count; /* since integrator_new_leg */
   long n_steps, n_evaluations;
   hypofab_status obstacle; /* why the right-hand side last failed */
   int is_fresh;            /* conditions or branch were set since the last start */
@@ -54,6 +54,9 @@ struct integrator {
 
 /** Right-hand side: the rates under the conditions of the step, on the branch of the current segment. */
 int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *it);
+
+/** Rates of the path length and the work at a strain rate. */
+void integrator_sums(const test_state *state, const double D[6], test_state *rate);
 
 /** Create the dense linear solver of an implicit method; 0 for success. */
 int integrator_create_linear_solver(integrator *it);

@@ -1,91 +1,93 @@
-/* Steps by component and by name. A newcomer adds a preset as one function and one table row. */
+/* Steps by name. A newcomer adds a preset as one function (preset_axial.c, ...) and one row here. */
+#include "driver/preset.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/message.h"
-#include "hypofab.h"
+#include "driver/quantity.h"
+#include "driver/step.h"
 
-static void clear(hypofab_step *step) {
-  memset(step->on_stress, 0, sizeof step->on_stress);
-  memset(step->on_strain, 0, sizeof step->on_strain);
-  memset(step->rate, 0, sizeof step->rate);
-}
+/* Parameters in the order of their bits. */
+static const char *const parameters[] = {"axis",      "normal",    "rate",   "drive",  "lode",   "b",         "alpha",
+                                         "stiffness", "direction", "p_rate", "q_rate", "b_rate", "alpha_rate"};
+enum { N_PARAMETERS = sizeof parameters / sizeof *parameters };
 
-hypofab_status hypofab_step_control(hypofab_step *step, const hypofab_control control[6], const double rate[6]) {
-  for (int i = 0; i < 6; i++) {
-    if (control[i] != HYPOFAB_STRAIN_RATE && control[i] != HYPOFAB_STRESS_RATE)
-      return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
-                          "control of component %d is %d, expected a strain rate (0) or a stress rate (1)", i + 1,
-                          (int)control[i]);
-    if (!isfinite(rate[i]))
-      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "rate of component %d is %g, expected a finite number", i + 1, rate[i]);
-  }
-  clear(step);
-  for (int i = 0; i < 6; i++) {
-    if (control[i] == HYPOFAB_STRESS_RATE)
-      step->on_stress[i][i] = 1.0;
-    else
-      step->on_strain[i][i] = 1.0;
-    step->rate[i] = rate[i];
-  }
-  return HYPOFAB_OK;
-}
-
-/* Shear stresses are held in every preset but the oedometer: a sample between smooth plates. */
-static void hold_shear_stresses(hypofab_step *step) {
-  for (int i = 3; i < 6; i++) step->on_stress[i][i] = 1.0;
-}
-
-static void isotropic(hypofab_step *step, int axis, double rate) {
-  (void)axis;
-  for (int j = 0; j < 3; j++) step->on_strain[0][j] = 1.0;
-  step->rate[0] = rate;
-  for (int i = 1; i < 3; i++) step->on_stress[i][0] = 1.0, step->on_stress[i][i] = -1.0;
-  hold_shear_stresses(step);
-}
-
-static void oedometer(hypofab_step *step, int axis, double rate) {
-  for (int i = 0; i < 6; i++) step->on_strain[i][i] = 1.0;
-  step->rate[axis] = rate;
-}
-
-static void drained_triaxial(hypofab_step *step, int axis, double rate) {
-  for (int i = 0; i < 3; i++)
-    if (i != axis) step->on_stress[i][i] = 1.0;
-  step->on_strain[axis][axis] = 1.0;
-  step->rate[axis] = rate;
-  hold_shear_stresses(step);
-}
-
-/* Constant volume under one cell pressure: the lateral stresses change alike, whatever delta makes the strains do. */
-static void undrained_triaxial(hypofab_step *step, int axis, double rate) {
-  const int first = (axis + 1) % 3, second = (axis + 2) % 3;
-  step->on_strain[axis][axis] = 1.0;
-  step->rate[axis] = rate;
-  for (int j = 0; j < 3; j++) step->on_strain[first][j] = 1.0;
-  step->on_stress[second][first] = 1.0, step->on_stress[second][second] = -1.0;
-  hold_shear_stresses(step);
-}
+#define AXIAL PRESET_AXIS
+#define PLANE (PRESET_AXIS | PRESET_NORMAL)
+#define DRIVEN (PRESET_RATE | PRESET_DRIVE)
+#define TURNED (PRESET_P_RATE | PRESET_Q_RATE | PRESET_B_RATE | PRESET_ALPHA_RATE)
 
 static const struct {
   const char *name, *description;
-  void (*fill)(hypofab_step *step, int axis, double rate);
-  double sign; /* of the strain rate; tension is positive */
+  preset_fill *fill;
+  double sign; /* of the driving rate, which is given as size; 0: it has a sign of its own. Tension is positive. */
+  int required, optional;
+  int by_stress; /* default of drive */
 } presets[] = {
     {"isotropic_compression", "equal normal stress rates, volumetric strain rate prescribed, shear stresses held",
-     isotropic, -1.0},
-    {"isotropic_extension", "the same with increasing volume", isotropic, 1.0},
-    {"oedometer_loading", "axial strain rate prescribed, every other strain held", oedometer, -1.0},
-    {"oedometer_unloading", "the same with axial extension", oedometer, 1.0},
-    {"drained_triaxial_compression", "axial strain rate prescribed, every other stress held", drained_triaxial, -1.0},
-    {"drained_triaxial_extension", "the same with axial extension", drained_triaxial, 1.0},
+     preset_isotropic, -1.0, 0, AXIAL | DRIVEN, 0},
+    {"isotropic_extension", "the same with increasing volume", preset_isotropic, 1.0, 0, AXIAL | DRIVEN, 0},
+    {"oedometer_loading", "axial strain rate prescribed, every other strain held", preset_oedometer, -1.0, AXIAL,
+     DRIVEN, 0},
+    {"oedometer_unloading", "the same with axial extension", preset_oedometer, 1.0, AXIAL, DRIVEN, 0},
+    {"k0_compression", "compression without lateral strain from any state: oedometer_loading", preset_oedometer, -1.0,
+     AXIAL, DRIVEN, 0},
+    {"k0_unloading", "unloading without lateral strain: oedometer_unloading", preset_oedometer, 1.0, AXIAL, DRIVEN, 0},
+    {"drained_triaxial_compression", "axial strain rate prescribed, every other stress held", preset_drained_triaxial,
+     -1.0, AXIAL, DRIVEN, 0},
+    {"drained_triaxial_extension", "the same with axial extension", preset_drained_triaxial, 1.0, AXIAL, DRIVEN, 0},
     {"undrained_triaxial_compression",
      "axial strain rate prescribed at constant volume, equal lateral effective stress rates, shear stresses held",
-     undrained_triaxial, -1.0},
-    {"undrained_triaxial_extension", "the same with axial extension", undrained_triaxial, 1.0},
+     preset_undrained_triaxial, -1.0, AXIAL, DRIVEN, 0},
+    {"undrained_triaxial_extension", "the same with axial extension", preset_undrained_triaxial, 1.0, AXIAL, DRIVEN, 0},
+    {"constant_p_triaxial_compression", "axial strain rate prescribed, p held, equal lateral stress rates",
+     preset_constant_p, -1.0, AXIAL, DRIVEN, 0},
+    {"constant_p_triaxial_extension", "the same with axial extension", preset_constant_p, 1.0, AXIAL, DRIVEN, 0},
+    {"constant_q_unloading", "p falls at constant stress deviator (drained rise of the pore pressure)",
+     preset_isotropic, 1.0, 0, AXIAL | DRIVEN, 1},
+    {"constant_q_loading", "p grows at constant stress deviator", preset_isotropic, -1.0, 0, AXIAL | DRIVEN, 1},
+    {"radial_constant_p", "a radial path at a Lode angle and constant p, principal axes x, y, z",
+     preset_radial_constant_p, 1.0, AXIAL | PRESET_LODE, DRIVEN, 0},
+    {"drained_biaxial_compression", "plane strain: axial strain rate prescribed, lateral stress held",
+     preset_drained_biaxial, -1.0, PLANE, DRIVEN, 0},
+    {"drained_biaxial_extension", "the same with axial extension", preset_drained_biaxial, 1.0, PLANE, DRIVEN, 0},
+    {"undrained_biaxial_compression", "plane strain at constant volume: axial strain rate prescribed",
+     preset_undrained_biaxial, -1.0, PLANE, DRIVEN, 0},
+    {"undrained_biaxial_extension", "the same with axial extension", preset_undrained_biaxial, 1.0, PLANE, DRIVEN, 0},
+    {"constant_s_biaxial_compression", "plane strain: axial strain rate prescribed, s' held", preset_constant_s, -1.0,
+     PLANE, DRIVEN, 0},
+    {"constant_s_biaxial_extension", "the same with axial extension", preset_constant_s, 1.0, PLANE, DRIVEN, 0},
+    {"simple_shear_constant_stress", "direct simple shear of a layer under constant normal stress",
+     preset_shear_constant_stress, 0.0, PLANE, DRIVEN, 0},
+    {"simple_shear_constant_volume", "direct simple shear of a layer at constant height", preset_shear_constant_volume,
+     0.0, PLANE, DRIVEN, 0},
+    {"simple_shear_constant_stiffness", "direct simple shear of a layer under a spring",
+     preset_shear_constant_stiffness, 0.0, PLANE | PRESET_STIFFNESS, DRIVEN, 0},
+    {"hollow_cylinder_shear", "shear at constant p, b and direction alpha of the major principal stress",
+     preset_hollow_cylinder_shear, 1.0, PLANE | PRESET_B | PRESET_ALPHA, DRIVEN, 0},
+    {"hollow_cylinder_rotation", "principal axes of stress turn at constant p, q and b; rate in degrees",
+     preset_hollow_cylinder_rotation, 0.0, PLANE, PRESET_RATE, 1},
+    {"hollow_cylinder", "given rates of p, q, b and alpha", preset_hollow_cylinder, 0.0, PLANE, TURNED, 1},
+    {"proportional_strain", "the strain grows along a direction", preset_proportional_strain, 1.0, PRESET_DIRECTION,
+     PLANE | PRESET_RATE, 0},
+    {"proportional_stress", "the stress changes along a direction", preset_proportional_stress, 1.0, PRESET_DIRECTION,
+     PLANE | DRIVEN, 0},
 };
 
 enum { N_PRESETS = sizeof presets / sizeof *presets };
+
+static int find_preset(const char *name) {
+  int i = 0;
+  while (i < N_PRESETS && strcmp(name, presets[i].name) != 0) i++;
+  return i;
+}
+
+static int find_parameter(const char *name) {
+  int i = 0;
+  while (i < N_PARAMETERS && strcmp(name, parameters[i]) != 0) i++;
+  return i;
+}
 
 const char *hypofab_preset_name(int index) { return index >= 0 && index < N_PRESETS ? presets[index].name : NULL; }
 
@@ -93,20 +95,134 @@ const char *hypofab_preset_description(int index) {
   return index >= 0 && index < N_PRESETS ? presets[index].description : NULL;
 }
 
-hypofab_status hypofab_step_preset(hypofab_step *step, const char *name, int axis, double rate) {
-  int i = 0;
-  while (i < N_PRESETS && strcmp(name, presets[i].name) != 0) i++;
-  if (i == N_PRESETS) {
-    char known[512] = "";
-    for (int k = 0; k < N_PRESETS; k++) strcat(strcat(known, " "), presets[k].name);
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "there is no preset \"%s\", expected one of:%s", name, known);
+const char *hypofab_preset_parameter(const char *preset, int index, int *required) {
+  const int i = preset ? find_preset(preset) : N_PRESETS;
+  if (i == N_PRESETS || index < 0) return NULL;
+  for (int k = 0; k < N_PARAMETERS; k++) {
+    if (!((presets[i].required | presets[i].optional) & 1 << k) || index-- > 0) continue;
+    if (required) *required = (presets[i].required & 1 << k) != 0;
+    return parameters[k];
   }
+  return NULL;
+}
+
+static hypofab_status refuse_unknown(const char *name) {
+  char known[HYPOFAB_MESSAGE_SIZE] = "";
+  for (int k = 0; k < N_PRESETS; k++) strcat(strcat(known, " "), presets[k].name);
+  return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "there is no preset \"%s\", expected one of:%s", name, known);
+}
+
+/* The parameters of a preset, those in `which`. */
+static const char *list_parameters(int which, char *text) {
+  text[0] = '\0';
+  for (int k = 0; k < N_PARAMETERS; k++)
+    if (which & 1 << k) strcat(strcat(text, *text ? ", " : ""), parameters[k]);
+  return *text ? text : "none";
+}
+
+static hypofab_status refuse_value(const char *parameter, double value, const char *expected) {
+  return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%s is %g, expected %s", parameter, value, expected);
+}
+
+static hypofab_status take_axis(const char *name, double value, int *axis) {
+  if (value != 0.0 && value != 1.0 && value != 2.0) return refuse_value(name, value, "0, 1 or 2 for x, y or z");
+  *axis = (int)value;
+  return HYPOFAB_OK;
+}
+
+static hypofab_status take_direction(const double given[6], double direction[6]) {
+  double square = 0.0;
+  for (int k = 0; k < 6; k++) square += (k < 3 ? 1.0 : 2.0) * given[k] * given[k];
+  if (!(square > 0.0 && isfinite(square)))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "direction has the norm %g, expected six numbers that are not all zero",
+                        sqrt(square));
+  for (int k = 0; k < 6; k++) direction[k] = given[k] / sqrt(square);
+  return HYPOFAB_OK;
+}
+
+static hypofab_status take(int parameter, const hypofab_argument *argument, double sign, preset_values *v) {
+  const double value = argument->value[0];
+  if (!isfinite(value)) return refuse_value(argument->name, value, "a finite number");
+  switch (1 << parameter) {
+    case PRESET_AXIS: return take_axis("axis", value, &v->axis);
+    case PRESET_NORMAL: return take_axis("normal", value, &v->normal);
+    case PRESET_RATE:
+      if (sign != 0.0 && !(value > 0.0))
+        return refuse_value("rate", value, "a number above 0 (the preset's name gives its sign)");
+      if (value == 0.0) return refuse_value("rate", value, "a number that is not 0");
+      v->rate = value;
+      return HYPOFAB_OK;
+    case PRESET_DRIVE:
+      if (value != 0.0 && value != 1.0) return refuse_value("drive", value, "0 (strain) or 1 (stress)");
+      v->by_stress = value == 1.0;
+      return HYPOFAB_OK;
+    case PRESET_LODE: v->lode = value; return HYPOFAB_OK;
+    case PRESET_B:
+      if (!(value >= 0.0 && value <= 1.0)) return refuse_value("b", value, "0 to 1");
+      v->b = value;
+      return HYPOFAB_OK;
+    case PRESET_ALPHA: v->alpha = value; return HYPOFAB_OK;
+    case PRESET_STIFFNESS:
+      if (!(value >= 0.0)) return refuse_value("stiffness", value, "0 or more");
+      v->stiffness = value;
+      return HYPOFAB_OK;
+    case PRESET_DIRECTION: return take_direction(argument->value, v->direction);
+    case PRESET_P_RATE: v->p_rate = value; return HYPOFAB_OK;
+    case PRESET_Q_RATE: v->q_rate = value; return HYPOFAB_OK;
+    case PRESET_B_RATE: v->b_rate = value; return HYPOFAB_OK;
+    default: v->alpha_rate = value; return HYPOFAB_OK;
+  }
+}
+
+/* The frame of a step: given axes, and what follows from them. */
+static hypofab_status complete_frame(int given, preset_values *v) {
+  if (!(given & PRESET_NORMAL)) v->normal = (v->axis + 2) % 3;
+  if (v->normal == v->axis)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "normal is the axis, expected another one: it is normal to the plane");
+  v->lateral = 3 - v->axis - v->normal;
+  return HYPOFAB_OK;
+}
+
+hypofab_status hypofab_step_preset_with(hypofab_step *step, const char *name, const hypofab_argument *arguments,
+                                        int n_arguments) {
+  const int i = find_preset(name);
+  if (i == N_PRESETS) return refuse_unknown(name);
+  const int allowed = presets[i].required | presets[i].optional;
+  char list[200];
+  preset_values v = {.axis = 2, .rate = 1.0, .by_stress = presets[i].by_stress};
+  int given = 0;
+  for (int k = 0; k < n_arguments; k++) {
+    const int parameter = find_parameter(arguments[k].name);
+    if (parameter == N_PARAMETERS || !(allowed & 1 << parameter))
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "preset %s takes no '%s', expected among %s", name, arguments[k].name,
+                          list_parameters(allowed, list));
+    if (given & 1 << parameter)
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "'%s' is given twice, expected it once", arguments[k].name);
+    given |= 1 << parameter;
+    hypofab_status status = take(parameter, &arguments[k], presets[i].sign, &v);
+    if (status) return status;
+  }
+  const int missing = presets[i].required & ~given;
+  if (missing)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "preset %s misses %s, expected %s", name, list_parameters(missing, list),
+                        missing & (PRESET_AXIS | PRESET_NORMAL) ? "x, y or z for an axis" : "a value");
+  if (presets[i].fill == preset_hollow_cylinder && !(given & TURNED))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "preset %s moves nothing, expected one of %s", name,
+                        list_parameters(TURNED, list));
+  hypofab_status status = complete_frame(given, &v);
+  if (status) return status;
+  if (presets[i].sign != 0.0) v.rate *= presets[i].sign;
+  step_clear(step);
+  if (given & PRESET_AXIS) step->axis = v.axis, step->normal = v.normal;
+  presets[i].fill(step, &v);
+  return HYPOFAB_OK;
+}
+
+hypofab_status hypofab_step_preset(hypofab_step *step, const char *name, int axis, double rate) {
+  const int i = find_preset(name);
+  if (i == N_PRESETS) return refuse_unknown(name);
   if (axis < 0 || axis > 2)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "axis is %d, expected 0, 1 or 2 for x, y or z", axis);
-  if (!(isfinite(rate) && rate > 0.0))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
-                        "rate is %g, expected a number above 0 (the preset's name gives its sign)", rate);
-  clear(step);
-  presets[i].fill(step, axis, presets[i].sign * rate);
-  return HYPOFAB_OK;
+  const hypofab_argument arguments[2] = {{"rate", {rate}}, {"axis", {axis}}};
+  return hypofab_step_preset_with(step, name, arguments, presets[i].required & PRESET_AXIS ? 2 : 1);
 }

@@ -74,13 +74,16 @@ static const char *deck_in(const char *unit, double factor, int sign) {
 }
 
 static bool is_stress(const char *name) {
-  return strncmp(name, "sig_", 4) == 0 || strncmp(name, "response_", 9) == 0 || !strcmp(name, "p") ||
-         !strcmp(name, "q") || !strcmp(name, "stiffness") || !strcmp(name, "distance");
+  const char *const names[] = {"p",     "q",           "q_signed",  "s",       "t", "pore_pressure",
+                               "p_tot", "stress_work", "stiffness", "distance"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+    if (strcmp(name, names[i]) == 0) return true;
+  return strncmp(name, "sig_", 4) == 0 || strncmp(name, "tot_", 4) == 0 || strncmp(name, "response_", 9) == 0;
 }
 
 static bool changes_sign(const char *name) {
-  const char *const starts[] = {"eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz",   "eps_yz",
-                                "sig_",   "delta_", "eps_v",  "D_",     "response_"};
+  const char *const starts[] = {"eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz", "eps_yz",
+                                "sig_",   "tot_",   "delta_", "eps_v",  "D_",     "response_"};
   for (size_t i = 0; i < sizeof starts / sizeof *starts; ++i)
     if (strncmp(name, starts[i], strlen(starts[i])) == 0) return true;
   return false;

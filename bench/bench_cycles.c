@@ -1,0 +1,62 @@
+/*
+ * Cost of drained stress cycles: the conditions of paper 002 (plane strain, s' = 127 kPa held, t cycled by 0.02 s'),
+ * 5,000 cycles from an isotropic state, and what a cycle costs in memory: nothing when only reversals are kept.
+ */
+#include <stdio.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include "hypofab.h"
+
+typedef struct tally {
+  long rows;
+  double axial;
+} tally;
+
+static int take(const hypofab_row *row, void *user) {
+  tally *t = user;
+  t->rows++;
+  t->axial = row->value[HYPOFAB_EPS_YY];
+  return 0;
+}
+
+static double now(void) {
+  struct timespec t;
+  timespec_get(&t, TIME_UTC);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void time_cycles(const char *drive, double by_stress, long count, double tolerance) {
+  const double s = 127.0;
+  hypofab_material material;
+  hypofab_sand("hochstetten", &material);
+  const hypofab_state state = {{-s, -s, -s, 0, 0, 0}, {0}, 0.7};
+  const hypofab_argument arguments[] = {{"axis", {1}}, {"normal", {2}}, {"drive", {by_stress}}};
+  hypofab_step step = {0};
+  hypofab_step_preset_with(&step, "constant_s_biaxial_compression", arguments, 3);
+  step.cycle = (hypofab_cycle){
+      .count = count, .quantity = HYPOFAB_T, .upper = 0.02 * s, .relative = 1, .kept = HYPOFAB_KEEP_REVERSALS};
+  const hypofab_test_options options = {.tolerance = tolerance};
+  hypofab_test_outcome outcome;
+  tally t = {0};
+  const double start = now();
+  const hypofab_status status = hypofab_test_run(&material, &state, &step, 1, &options, take, &t, &outcome);
+  const double spent = now() - start;
+  if (status) printf("stopped early: %s\n", hypofab_last_message());
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  printf(
+      "%-6s %6ld cycles, tolerance %.0e: %6.2f s  %8ld steps  %9ld evaluations  %5.0f ns each  %6ld rows  "
+      "eps_axial %.6e  peak memory %ld kB\n",
+      drive, count, tolerance, spent, outcome.integrator_steps, outcome.evaluations,
+      1e9 * spent / (double)outcome.evaluations, t.rows, t.axial, usage.ru_maxrss);
+}
+
+int main(void) {
+  printf("constant s' = 127 kPa, t between 0 and 0.02 s', plane strain, Hochstetten sand:\n");
+  time_cycles("stress", 1.0, 500, 1e-6);
+  time_cycles("stress", 1.0, 5000, 1e-6);
+  time_cycles("stress", 1.0, 500, 1e-8);
+  time_cycles("strain", 0.0, 500, 1e-6);
+  return 0;
+}
