@@ -28,6 +28,9 @@ int cmd_delta(int argc, char **argv);
 /** List the built-in sands. */
 int cmd_materials(int argc, char **argv);
 
+/** Stability of the states of a deck, or of one given by options. */
+int cmd_stability(int argc, char **argv);
+
 /** Check a deck without running it. */
 int cmd_check(int argc, char **argv);
 

@@ -34,13 +34,13 @@ double parse_number(struct argp_state *state, const char *option, const char *te
   return value;
 }
 
-static void parse_tensor(struct argp_state *state, const char *text, double N[6]) {
+void parse_tensor(struct argp_state *state, const char *option, const char *text, double tensor[6]) {
   char *copy = strdup(text), *rest = copy;
   if (!copy) argp_failure(state, 3, 0, "out of memory");
   int count = 0;
   for (char *part; (part = strsep(&rest, ",")); count++)
-    if (count < 6) N[count] = parse_number(state, "--N", part);
-  if (count != 6) argp_error(state, "--N: %d numbers in '%s'; expected six, xx,yy,zz,xy,xz,yz", count, text);
+    if (count < 6) tensor[count] = parse_number(state, option, part);
+  if (count != 6) argp_error(state, "%s: %d numbers in '%s'; expected six, xx,yy,zz,xy,xz,yz", option, count, text);
   free(copy);
 }
 
@@ -81,7 +81,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     case KEY_SEPARATOR: format->separator = parse_separator(state, text); break;
     case KEY_PARTICLES: parse_particles(state, text, format); break;
     case KEY_TENSOR:
-      parse_tensor(state, text, chosen->N);
+      parse_tensor(state, "--N", text, chosen->N);
       chosen->has_tensor = true;
       break;
     case ARGP_KEY_ARG:

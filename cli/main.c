@@ -14,6 +14,7 @@ static const struct command {
 } commands[] = {
     {"run", cmd_run, "run the element tests of a deck"},
     {"envelope", cmd_envelope, "compute the response envelopes of a deck"},
+    {"stability", cmd_stability, "stability of a state: second-order work, localisation, bound surface"},
     {"check", cmd_check, "validate a deck and say what it would run"},
     {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
     {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},

@@ -105,3 +105,23 @@ const char *hypofab_study_test_name(const hypofab_study *study, int index) {
 const char *hypofab_study_envelope_name(const hypofab_study *study, int index) {
   return index >= 0 && index < hypofab_study_envelope_count(study) ? study->deck->envelopes[index].name : NULL;
 }
+
+int hypofab_study_state_count(const hypofab_study *study) { return (int)study->deck->states_count; }
+
+const char *hypofab_study_state_name(const hypofab_study *study, int index) {
+  return index >= 0 && index < hypofab_study_state_count(study) ? study->deck->states[index].name : NULL;
+}
+
+hypofab_status hypofab_study_state(const hypofab_study *study, int index, hypofab_material *material,
+                                   hypofab_state *state) {
+  if (!hypofab_study_state_name(study, index))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "state number %d, expected 0 to %d", index,
+                        hypofab_study_state_count(study) - 1);
+  *state = study->states[index].initial;
+  *material = study->materials[study->states[index].material];
+  return HYPOFAB_OK;
+}
+
+const char *hypofab_study_unit(const hypofab_study *study) { return deck_unit_name(study->unit); }
+
+int hypofab_study_sign(const hypofab_study *study) { return (int)study_sign(study); }

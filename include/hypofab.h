@@ -925,11 +925,21 @@ hypofab_status hypofab_study_load(const char *path, hypofab_study **study);
 /** Free a study; NULL is allowed. */
 void hypofab_study_free(hypofab_study *study);
 
-/** Number of tests and envelopes in a study, and their names (NULL past the last one). */
+/** Number of tests, envelopes and states in a study, and their names (NULL past the last one). */
 int hypofab_study_test_count(const hypofab_study *study);
 int hypofab_study_envelope_count(const hypofab_study *study);
+int hypofab_study_state_count(const hypofab_study *study);
 const char *hypofab_study_test_name(const hypofab_study *study, int index);
 const char *hypofab_study_envelope_name(const hypofab_study *study, int index);
+const char *hypofab_study_state_name(const hypofab_study *study, int index);
+
+/** State number index of a study and its material, tension positive, in the deck's unit of stress. */
+hypofab_status hypofab_study_state(const hypofab_study *study, int index, hypofab_material *material,
+                                   hypofab_state *state);
+
+/** Unit of stress of a deck ("kPa"; static), and its sign: 1 when tension is positive in it, -1 when compression is. */
+const char *hypofab_study_unit(const hypofab_study *study);
+int hypofab_study_sign(const hypofab_study *study);
 
 /**
  * @brief Run every test of a study and write DIR/<test>.csv each and DIR/summary.json.

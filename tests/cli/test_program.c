@@ -33,7 +33,7 @@ static void help_and_version_are_printed(void **state) {
   expect(&run, 0, hypofab_version(), "");
   run_free(&run);
   run = program("--help", NULL);
-  const char *const commands[] = {"run", "envelope", "check", "materials", "fabric", "changes", "delta"};
+  const char *const commands[] = {"run", "envelope", "check", "materials", "fabric", "changes", "delta", "stability"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
     char line[32];
     snprintf(line, sizeof line, "\n  %-10s ", commands[i]);
@@ -65,6 +65,9 @@ static void wrong_usage_has_exit_code_2(void **state) {
                {{"run", "a.yaml", "--fast"}, "unrecognized option"},
                {{"run", "a.yaml", "-o"}, "requires an argument"},
                {{"check", "a.yaml", "-o", "x"}, "invalid option"},
+               {{"stability"}, "give either a deck or --sand"},
+               {{"stability", "--sand", "hochstetten"}, "--void-ratio"},
+               {{"stability", "--stress", "-1,-1,-1"}, "3 numbers"},
                {{"materials", "sahara"}, "sahara"},
                {{"materials", "toyoura", "hostun"}, "one sand at a time"},
                {{"materials", "--yaml"}, "expected the NAME of a sand"},
@@ -269,6 +272,48 @@ static void sands_are_listed_and_shown(void **state) {
   run_free(&one);
 }
 
+/* The state of a deck and the same state by options give the same numbers; a plane strain state near failure warns.
+ */
+static void stability_of_a_deck_and_of_options(void **state) {
+  (void)state;
+  scratch_write("deck.yaml",
+                "sign: compression_positive\n"
+                "materials:\n  - {name: sand, sand: hochstetten, intergranular: false}\n"
+                "states:\n  - {name: a, material: sand, stress: [60, 140, 320, 0, 0, 0],"
+                " void_ratio: 0.7}\n"
+                "  - {name: b, material: sand, p: 100, void_ratio: 0.7}\n"
+                "tests:\n  - name: t\n    state: a\n    steps:\n"
+                "      - {preset: oedometer_loading, axis: z, until: {quantity: time, value: 1e-3}}\n");
+  char deck[256]; /* scratch_path serves others soon */
+  snprintf(deck, sizeof deck, "%s", scratch_path("deck.yaml"));
+  program_run by_deck = program("stability", deck, "--json", NULL);
+  program_run by_options = program("stability", "--sand", "hochstetten", "--plain", "--stress", "60,140,320,0,0,0",
+                                   "--void-ratio", "0.7", "--compression-positive", "--json", NULL);
+  expect(&by_deck, 0, "", "");
+  expect(&by_options, 0, "", "");
+  json_t *a = json_loads(by_deck.out, 0, NULL), *b = json_loads(by_options.out, 0, NULL);
+  json_t *first = json_array_get(json_object_get(a, "states"), 0),
+         *other = json_array_get(json_object_get(b, "states"), 0);
+  assert_int_equal(json_array_size(json_object_get(a, "states")), 2);
+  const char *const parts[] = {"second_order_work", "localisation", "bound"};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+    assert_true(json_equal(json_object_get(first, parts[i]), json_object_get(other, parts[i])));
+  assert_string_equal(json_string_value(json_object_get(b, "sign")), "compression_positive");
+  const json_t *direction = json_object_get(json_object_get(first, "second_order_work"), "direction");
+  assert_true(json_number_value(json_array_get(direction, 2)) > 0.5); /* shortening along z is positive here */
+  json_decref(a);
+  json_decref(b);
+  run_free(&by_deck);
+  run_free(&by_options);
+  program_run text = program("stability", deck, "--state", "a", NULL);
+  expect(&text, 0, "NOT positive", "");
+  expect(&text, 0, "a band CAN form", "");
+  run_free(&text);
+  text = program("stability", deck, "--state", "c", NULL);
+  expect(&text, 2, "", "no state 'c'");
+  run_free(&text);
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, scratch_make, scratch_remove)
   const struct CMUnitTest tests[] = {
@@ -282,6 +327,7 @@ int main(void) {
       TEST(ctrl_c_keeps_the_rows_and_says_so),
       TEST(a_bar_is_shown_on_a_terminal_only),
       TEST(sands_are_listed_and_shown),
+      TEST(stability_of_a_deck_and_of_options),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
