@@ -909,6 +909,111 @@ hypofab_status hypofab_fabric_fit(int n, const hypofab_fabric_probe *probes, int
  */
 hypofab_status hypofab_fabric_zones(double a_n, double stress_ratio, double no_gain[2], double no_loss[2]);
 
+/* ------------------------------------------------------------- uncertainty */
+
+/** How far an anisotropy stands out of the noise of a finite number of contacts (docs/uncertainty.md). */
+typedef struct hypofab_significance {
+  double noise;     /**< root-mean-square a of N_c independent contacts without preferred direction: 7.5/sqrt(N_c) */
+  double corrected; /**< a without the noise in it: sqrt(max(0, a^2 - 84.375 (1 - N:N)/(N_c - 1))) */
+  double statistic; /**< N_c a^2/11.25, of chi-square distribution with 5 degrees of freedom without anisotropy */
+  double p_value;   /**< probability of this a or more without anisotropy, contacts being independent */
+} hypofab_significance;
+
+/**
+ * @brief Test a fabric against isotropy.
+ * @param fabric with its number of contacts
+ * @return HYPOFAB_BAD_ARGUMENT when it has fewer than two (a given fabric tensor has none)
+ */
+hypofab_status hypofab_fabric_significance(const hypofab_fabric *fabric, hypofab_significance *significance);
+
+/**
+ * @brief The fabric without the noise in its anisotropy: same directions, F and a reduced.
+ * @param fabric    N_c is needed when noise2 is negative
+ * @param noise2    what noise adds to a^2, >= 0; negative: 84.375 (1 - N:N)/(N_c - 1), that of independent contacts
+ * @param corrected filled; a = 0 where noise explains all of it. May be `fabric`.
+ */
+hypofab_status hypofab_fabric_correct(const hypofab_fabric *fabric, double noise2, hypofab_fabric *corrected);
+
+/** What a bootstrap draws again, with replacement. */
+typedef enum hypofab_resampling {
+  HYPOFAB_CONTACTS = 0, /**< contacts, as if independent: weights of Poisson distribution, streamed */
+  HYPOFAB_BLOCKS = 1,   /**< cubes of the sample with all contacts in them; contacts need positions */
+  HYPOFAB_SAMPLES = 2   /**< whole contact lists, of samples made alike */
+} hypofab_resampling;
+
+/** Options of a bootstrap. */
+typedef struct hypofab_bootstrap_options {
+  hypofab_resampling units;
+  int replicates;     /**< 20 or more */
+  unsigned long seed; /**< equal seeds give equal results */
+  int blocks;         /**< of HYPOFAB_BLOCKS: along each edge of the box that holds all contacts, 2 to 40 */
+} hypofab_bootstrap_options;
+
+/** Fabric tensors of a sample drawn again and again. */
+typedef struct hypofab_bootstrap hypofab_bootstrap;
+
+/**
+ * @brief Read contact lists and draw their fabric again.
+ * @param n_paths one list, or two and more for HYPOFAB_SAMPLES; several lists are pooled, contact by contact
+ * @param paths   the files
+ * @param format  NULL for the defaults
+ * @param options what to draw
+ * @param bootstrap set; to be freed with hypofab_bootstrap_free. NULL on failure
+ * @return HYPOFAB_BAD_FILE as hypofab_fabric_read; HYPOFAB_BAD_ARGUMENT. Memory does not grow with the number of
+ * contacts.
+ */
+hypofab_status hypofab_bootstrap_read(int n_paths, const char *const *paths, const hypofab_contact_format *format,
+                                      const hypofab_bootstrap_options *options, hypofab_bootstrap **bootstrap);
+
+/** Free a bootstrap; NULL is allowed. */
+void hypofab_bootstrap_free(hypofab_bootstrap *bootstrap);
+
+/** Number of replicates and of units (contacts, blocks with contacts in them, samples). */
+int hypofab_bootstrap_replicates(const hypofab_bootstrap *bootstrap);
+int64_t hypofab_bootstrap_units(const hypofab_bootstrap *bootstrap);
+
+/** The fabric of the lists as they are; coordination numbers are not known. */
+hypofab_status hypofab_bootstrap_fabric(const hypofab_bootstrap *bootstrap, hypofab_fabric *fabric);
+
+/**
+ * @brief The fabric of one replicate, with as much noise in its anisotropy as the sample has, or without.
+ *
+ * A replicate carries the noise of the sample and once more as much: noise2 (hypofab_uncertainty) is taken off its a^2
+ * once, or twice when corrected.
+ * @param index     from 0
+ * @param corrected non-zero: without noise
+ */
+hypofab_status hypofab_bootstrap_replicate(const hypofab_bootstrap *bootstrap, int index, int corrected,
+                                           hypofab_fabric *fabric);
+
+/** A range that holds the share `level` of the replicates, and their standard deviation. */
+typedef struct hypofab_interval {
+  double lower, upper, error;
+} hypofab_interval;
+
+/** Confidence in a fabric and in the delta that follows from it. */
+typedef struct hypofab_uncertainty {
+  double noise2;                         /**< what noise adds to a^2, from the scatter of the replicates */
+  double p_value;                        /**< probability of this F or a larger one without anisotropy (Hotelling's
+                                              test with the scatter of the replicates); NaN for 6 units or fewer */
+  hypofab_interval fabric[6];            /**< N */
+  hypofab_interval deviatoric_fabric[6]; /**< F */
+  hypofab_interval anisotropy;           /**< plain a: where a of another sample like this one would be */
+  hypofab_interval corrected_anisotropy; /**< a without noise: where that of the unlimited sample is */
+  hypofab_interval weight;               /**< f(a) */
+  hypofab_interval delta[6];
+  double delta_angle; /**< the share `level` of deltas is within this angle of the estimate, acos(d:d'/R^2) [deg] */
+} hypofab_uncertainty;
+
+/**
+ * @brief Intervals of a bootstrap.
+ * @param level     share of the replicates inside, e.g. 0.95
+ * @param R, c      of the map to delta (hypofab_fabric_to_delta)
+ * @param corrected non-zero: weight and delta follow from the fabric without noise
+ */
+hypofab_status hypofab_bootstrap_uncertainty(const hypofab_bootstrap *bootstrap, double level, double R, double c,
+                                             int corrected, hypofab_uncertainty *uncertainty);
+
 /* -------------------------------------------------------------------- deck */
 
 /** A validated deck: materials, states, tests and envelopes. */

@@ -1,0 +1,215 @@
+/* Replicates of a fabric and the intervals they give (docs/uncertainty.md). */
+#include "fabric2delta/bootstrap.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/message.h"
+#include "fabric2delta/fabric.h"
+
+hypofab_status fabric_sum_describe(const fabric_sum *sum, hypofab_fabric *fabric) {
+  double tensor[6];
+  for (int i = 0; i < 6; i++) tensor[i] = sum->sums[i] / sum->weight;
+  const int info = hypofab_fabric_describe(tensor, fabric);
+  return info ? hypofab_fail(HYPOFAB_INTERNAL_ERROR, "bootstrap: LAPACK dsyev returned info = %d", info) : HYPOFAB_OK;
+}
+
+void deviator_coordinates(const double x[6], double coordinates[DEVIATOR_SIZE]) {
+  coordinates[0] = (x[0] - x[1]) / M_SQRT2;
+  coordinates[1] = (2.0 * x[2] - x[0] - x[1]) / sqrt(6.0);
+  for (int i = 0; i < 3; i++) coordinates[2 + i] = M_SQRT2 * x[3 + i];
+}
+
+hypofab_status bootstrap_draw(hypofab_bootstrap *bootstrap, unsigned long seed, size_t n, const fabric_sum *units) {
+  gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+  unsigned *times = calloc(n, sizeof *times);
+  double *equal = malloc(n * sizeof *equal);
+  hypofab_status status =
+      random && times && equal ? HYPOFAB_OK : hypofab_fail(HYPOFAB_NO_MEMORY, "bootstrap: out of memory");
+  if (!status) {
+    gsl_rng_set(random, seed);
+    for (size_t i = 0; i < n; i++) equal[i] = 1.0;
+    for (int k = 0; k < bootstrap->replicates; k++) {
+      fabric_sum *sum = &bootstrap->replicate[k];
+      *sum = (fabric_sum){0};
+      gsl_ran_multinomial(random, n, (unsigned)n, equal, times);
+      for (size_t i = 0; i < n; i++) {
+        sum->weight += times[i] * units[i].weight;
+        for (int j = 0; j < 6; j++) sum->sums[j] += times[i] * units[i].sums[j];
+      }
+    }
+  }
+  free(equal);
+  free(times);
+  gsl_rng_free(random);
+  return status;
+}
+
+/* F of a sum; no LAPACK, no principal values. */
+static void deviatoric(const fabric_sum *sum, double F[6]) {
+  for (int i = 0; i < 6; i++) F[i] = 7.5 * (sum->sums[i] / sum->weight - (i < 3 ? 1.0 / 3.0 : 0.0));
+}
+
+void bootstrap_measure(hypofab_bootstrap *bootstrap) {
+  const int n = bootstrap->replicates;
+  double mean[DEVIATOR_SIZE] = {0}, F[6], x[DEVIATOR_SIZE];
+  for (int k = 0; k < n; k++) {
+    deviatoric(&bootstrap->replicate[k], F);
+    deviator_coordinates(F, x);
+    for (int i = 0; i < DEVIATOR_SIZE; i++) mean[i] += x[i] / n;
+  }
+  /* Drawing n units from n with replacement scatters by (n - 1)/n of what n new units would. */
+  const double units = (double)bootstrap->units, scale = units / (units - 1.0) / (n - 1);
+  for (int k = 0; k < n; k++) {
+    deviatoric(&bootstrap->replicate[k], F);
+    deviator_coordinates(F, x);
+    for (int i = 0; i < DEVIATOR_SIZE; i++)
+      for (int j = 0; j < DEVIATOR_SIZE; j++)
+        bootstrap->covariance[i][j] += scale * (x[i] - mean[i]) * (x[j] - mean[j]);
+  }
+  for (int i = 0; i < DEVIATOR_SIZE; i++) bootstrap->noise2 += 1.5 * bootstrap->covariance[i][i];
+}
+
+/* ---------------------------------------------------------------- accessors */
+
+void hypofab_bootstrap_free(hypofab_bootstrap *bootstrap) {
+  if (!bootstrap) return;
+  free(bootstrap->replicate);
+  free(bootstrap);
+}
+
+int hypofab_bootstrap_replicates(const hypofab_bootstrap *bootstrap) { return bootstrap->replicates; }
+
+int64_t hypofab_bootstrap_units(const hypofab_bootstrap *bootstrap) { return bootstrap->units; }
+
+hypofab_status hypofab_bootstrap_fabric(const hypofab_bootstrap *bootstrap, hypofab_fabric *fabric) {
+  if (!bootstrap || !fabric) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "bootstrap: a NULL pointer was given");
+  hypofab_status status = fabric_sum_describe(&bootstrap->whole, fabric);
+  if (!status) fabric->contacts = bootstrap->contacts;
+  return status;
+}
+
+hypofab_status hypofab_bootstrap_replicate(const hypofab_bootstrap *bootstrap, int index, int corrected,
+                                           hypofab_fabric *fabric) {
+  if (!bootstrap || !fabric) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "bootstrap: a NULL pointer was given");
+  if (index < 0 || index >= bootstrap->replicates)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "bootstrap: replicate %d; expected 0 to %d", index,
+                        bootstrap->replicates - 1);
+  hypofab_status status = fabric_sum_describe(&bootstrap->replicate[index], fabric);
+  if (!status) status = hypofab_fabric_correct(fabric, (corrected ? 2.0 : 1.0) * bootstrap->noise2, fabric);
+  return status;
+}
+
+/* ---------------------------------------------------------------- intervals */
+
+/* Hotelling's T^2 test of F = 0 with the covariance of the replicates. n units estimate it with n - 1 degrees of
+ * freedom; that it is also estimated from a finite number of replicates, B, makes its inverse too large by (B - 1)/(B -
+ * 7) on average (Wishart). */
+static double isotropy_p_value(const hypofab_bootstrap *bootstrap) {
+  const double p = DEVIATOR_SIZE, n = (double)bootstrap->units, B = bootstrap->replicates;
+  if (n <= p + 1) return NAN;
+  double matrix[DEVIATOR_SIZE * DEVIATOR_SIZE], F[6], x[DEVIATOR_SIZE], solved[DEVIATOR_SIZE];
+  for (int i = 0; i < DEVIATOR_SIZE; i++)
+    for (int j = 0; j < DEVIATOR_SIZE; j++) matrix[i * DEVIATOR_SIZE + j] = bootstrap->covariance[i][j];
+  deviatoric(&bootstrap->whole, F);
+  deviator_coordinates(F, x);
+  gsl_matrix_view S = gsl_matrix_view_array(matrix, DEVIATOR_SIZE, DEVIATOR_SIZE);
+  gsl_vector_view f = gsl_vector_view_array(x, DEVIATOR_SIZE), y = gsl_vector_view_array(solved, DEVIATOR_SIZE);
+  for (int i = 0; i < DEVIATOR_SIZE; i++)
+    if (!(matrix[i * (DEVIATOR_SIZE + 1)] > 0.0)) return NAN; /* nothing scatters: no test */
+  if (gsl_linalg_cholesky_decomp1(&S.matrix) || gsl_linalg_cholesky_solve(&S.matrix, &f.vector, &y.vector)) return NAN;
+  double T2 = 0.0;
+  for (int i = 0; i < DEVIATOR_SIZE; i++) T2 += x[i] * solved[i];
+  T2 *= (B - p - 2.0) / (B - 1.0);
+  return gsl_cdf_fdist_Q(T2 * (n - p) / (p * (n - 1.0)), p, n - p);
+}
+
+enum { ANISOTROPY = 12, CORRECTED, WEIGHT, DELTA, ANGLE = DELTA + 6, N_NUMBERS };
+
+/* What is collected of one replicate: N, F, the two anisotropies, f(a), delta, and delta's angle to the estimate. */
+static hypofab_status collect(const hypofab_bootstrap *bootstrap, int k, double R, double c, int corrected,
+                              const double delta[6], double numbers[N_NUMBERS]) {
+  hypofab_fabric raw, plain, noiseless;
+  hypofab_initial_delta map;
+  hypofab_status status = fabric_sum_describe(&bootstrap->replicate[k], &raw);
+  if (!status) status = hypofab_bootstrap_replicate(bootstrap, k, 0, &plain);
+  if (!status) status = hypofab_bootstrap_replicate(bootstrap, k, 1, &noiseless);
+  if (!status) status = hypofab_fabric_to_delta(corrected ? &noiseless : &plain, R, c, &map);
+  if (status) return status;
+  double product = 0.0;
+  for (int i = 0; i < 6; i++) {
+    numbers[i] = raw.fabric[i];
+    numbers[6 + i] = raw.deviatoric_fabric[i];
+    numbers[DELTA + i] = map.delta[i];
+    product += (i < 3 ? 1.0 : 2.0) * map.delta[i] * delta[i];
+  }
+  numbers[ANISOTROPY] = plain.anisotropy;
+  numbers[CORRECTED] = noiseless.anisotropy;
+  numbers[WEIGHT] = map.weight;
+  numbers[ANGLE] = acos(fmax(-1.0, fmin(1.0, product / (R * R)))) * 180.0 / M_PI;
+  return HYPOFAB_OK;
+}
+
+/* values: sorted in place. */
+static hypofab_interval interval_of(double *values, size_t n, double level) {
+  hypofab_interval interval = {.error = gsl_stats_sd(values, 1, n)};
+  gsl_sort(values, 1, n);
+  interval.lower = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.5 * (1.0 - level));
+  interval.upper = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.5 * (1.0 + level));
+  return interval;
+}
+
+static void summarise(double *columns, size_t n, double level, hypofab_uncertainty *result) {
+  for (int i = 0; i < 6; i++) {
+    result->fabric[i] = interval_of(columns + (size_t)i * n, n, level);
+    result->deviatoric_fabric[i] = interval_of(columns + (size_t)(6 + i) * n, n, level);
+    result->delta[i] = interval_of(columns + (size_t)(DELTA + i) * n, n, level);
+  }
+  result->anisotropy = interval_of(columns + ANISOTROPY * n, n, level);
+  result->corrected_anisotropy = interval_of(columns + CORRECTED * n, n, level);
+  result->weight = interval_of(columns + WEIGHT * n, n, level);
+  double *angles = columns + ANGLE * n;
+  gsl_sort(angles, 1, n);
+  result->delta_angle = gsl_stats_quantile_from_sorted_data(angles, 1, n, level);
+}
+
+/* The delta of the lists as they are. */
+static hypofab_status estimate_delta(const hypofab_bootstrap *bootstrap, double R, double c, int corrected,
+                                     hypofab_initial_delta *map) {
+  hypofab_fabric fabric;
+  hypofab_status status = hypofab_bootstrap_fabric(bootstrap, &fabric);
+  if (!status && corrected) status = hypofab_fabric_correct(&fabric, bootstrap->noise2, &fabric);
+  return status ? status : hypofab_fabric_to_delta(&fabric, R, c, map);
+}
+
+hypofab_status hypofab_bootstrap_uncertainty(const hypofab_bootstrap *bootstrap, double level, double R, double c,
+                                             int corrected, hypofab_uncertainty *uncertainty) {
+  if (!bootstrap || !uncertainty) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "bootstrap: a NULL pointer was given");
+  if (!(level > 0.0 && level < 1.0))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "level is %g; expected a share between 0 and 1, as 0.95", level);
+  hypofab_initial_delta map;
+  hypofab_status status = estimate_delta(bootstrap, R, c, corrected, &map);
+  if (status) return status;
+  const size_t n = (size_t)bootstrap->replicates;
+  double *columns = malloc(N_NUMBERS * n * sizeof *columns);
+  if (!columns) return hypofab_fail(HYPOFAB_NO_MEMORY, "bootstrap: out of memory");
+  for (size_t k = 0; k < n && !status; k++) {
+    double numbers[N_NUMBERS];
+    status = collect(bootstrap, (int)k, R, c, corrected, map.delta, numbers);
+    for (size_t i = 0; i < N_NUMBERS && !status; i++) columns[i * n + k] = numbers[i];
+  }
+  if (!status) {
+    hypofab_uncertainty result = {.noise2 = bootstrap->noise2, .p_value = isotropy_p_value(bootstrap)};
+    summarise(columns, n, level, &result);
+    *uncertainty = result;
+  }
+  free(columns);
+  return status;
+}

@@ -1,0 +1,44 @@
+/**
+ * @file bootstrap.h
+ * @brief Fabric sums of a sample drawn again and again; memory grows with replicates and units, not with contacts.
+ */
+#ifndef HYPOFAB_FABRIC2DELTA_BOOTSTRAP_H
+#define HYPOFAB_FABRIC2DELTA_BOOTSTRAP_H
+
+#include "hypofab.h"
+
+/** Components of a deviator in an orthonormal basis. */
+enum { DEVIATOR_SIZE = 5 };
+
+/** Contacts with weights: the sum of weights, and of weight times n (x) n. */
+typedef struct fabric_sum {
+  double weight, sums[6];
+} fabric_sum;
+
+struct hypofab_bootstrap {
+  int replicates;
+  int64_t units;                                   /**< what was drawn from: contacts, blocks with contacts, samples */
+  int64_t contacts;                                /**< N_c */
+  fabric_sum whole;                                /**< all contacts, weight 1 */
+  fabric_sum *replicate;                           /**< one for each */
+  double covariance[DEVIATOR_SIZE][DEVIATOR_SIZE]; /**< of F over the replicates */
+  double noise2;                                   /**< what noise adds to a^2: 3/2 times the trace of the covariance */
+};
+
+/** The fabric of a sum. @return HYPOFAB_INTERNAL_ERROR when LAPACK fails */
+hypofab_status fabric_sum_describe(const fabric_sum *sum, hypofab_fabric *fabric);
+
+/** F in an orthonormal basis of deviators: the sum of squares is F:F. */
+void deviator_coordinates(const double deviator[6], double coordinates[DEVIATOR_SIZE]);
+
+/**
+ * @brief Draw replicates from units, each as often as there are units, with replacement.
+ * @param bootstrap its replicates are filled
+ * @param units     n of them
+ */
+hypofab_status bootstrap_draw(hypofab_bootstrap *bootstrap, unsigned long seed, size_t n, const fabric_sum *units);
+
+/** Covariance and noise from the replicates; the last step of reading. */
+void bootstrap_measure(hypofab_bootstrap *bootstrap);
+
+#endif
