@@ -6,11 +6,14 @@
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/report.h"
+#include "cli/uncertainty_options.h"
 
-enum { KEY_JSON = 0x100, KEY_R, KEY_C, KEY_SIGN };
+enum { KEY_JSON = 0x100, KEY_R, KEY_C, KEY_SIGN, KEY_CORRECTED };
 
 typedef struct choices {
   contact_options contacts;
+  uncertainty_options uncertainty;
+  bool corrected;
   double R, c;
   bool json;
   bool compression_positive;
@@ -19,6 +22,9 @@ typedef struct choices {
 static const struct argp_option options[] = {
     {.name = "R", .key = KEY_R, .arg = "NUMBER", .doc = "Size of the elastic strain range, |delta| (default: 1e-4)"},
     {.name = "c", .key = KEY_C, .arg = "NUMBER", .doc = "Parameter of the weight f(a) = 1 - exp(-a/c) (default: 0.05)"},
+    {.name = "corrected",
+     .key = KEY_CORRECTED,
+     .doc = "delta from F and a without the noise that the finite number of contacts adds to them"},
     {.name = "sign",
      .key = KEY_SIGN,
      .doc = "Soil-mechanics sign: print delta with compression positive (STATEV keeps tension positive)"},
@@ -34,6 +40,7 @@ static const char doc[] =
     "Examples:\n"
     "  hypofab delta contacts.txt.gz --R 1e-4 --c 0.05\n"
     "  hypofab delta --N .318,.362,.320,.001,-.002,0 --R 1e-4 --c 0.05 --json\n"
+    "  hypofab delta contacts.txt.gz --corrected --bootstrap 1000\n"
     "  hypofab delta dump.txt --nx 6 --ny 7 --nz 8\n"
     "\n"
     "Components of tensors come in the order xx yy zz xy xz yz. A UMAT stores delta with engineering shear "
@@ -42,11 +49,20 @@ static const char doc[] =
 static error_t parse(int key, char *text, struct argp_state *state) {
   choices *chosen = state->input;
   switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &chosen->contacts; return 0;
+    case ARGP_KEY_INIT:
+      state->child_inputs[0] = &chosen->contacts;
+      state->child_inputs[1] = &chosen->uncertainty;
+      return 0;
+    case KEY_CORRECTED: chosen->corrected = true; return 0;
     case KEY_R: chosen->R = parse_number(state, "--R", text); return 0;
     case KEY_C: chosen->c = parse_number(state, "--c", text); return 0;
     case KEY_SIGN: chosen->compression_positive = true; return 0;
     case KEY_JSON: chosen->json = true; return 0;
+    case ARGP_KEY_END:
+      if (chosen->corrected && chosen->contacts.has_tensor)
+        argp_error(state, "--corrected needs the number of contacts; the fabric tensor of --N has none");
+      uncertainty_check(state, &chosen->contacts, &chosen->uncertainty);
+      return 0;
     default: return ARGP_ERR_UNKNOWN;
   }
 }
@@ -56,29 +72,41 @@ static void signed_delta(const choices *chosen, const hypofab_initial_delta *map
   for (int i = 0; i < 6; i++) delta[i] = chosen->compression_positive ? 0.0 - map->delta[i] : map->delta[i];
 }
 
+/* The same for its intervals, whose ends change places. */
+static void sign_intervals(const choices *chosen, hypofab_interval delta[6]) {
+  for (int i = 0; i < 6 && chosen->compression_positive; i++)
+    delta[i] = (hypofab_interval){0.0 - delta[i].upper, 0.0 - delta[i].lower, delta[i].error};
+}
+
 static const char *sign_name(const choices *chosen) {
   return chosen->compression_positive ? "compression positive" : "tension positive";
 }
 
-static int print_as_json(const choices *chosen, const hypofab_fabric *fabric, const hypofab_initial_delta *map) {
+static int print_as_json(const choices *chosen, const hypofab_fabric *fabric, const hypofab_initial_delta *map,
+                         const uncertainty *found) {
   double delta[6];
   signed_delta(chosen, map, delta);
   json_t *object = fabric_to_json(fabric);
-  json_t *more = json_pack("{s:f, s:f, s:f, s:o, s:o, s:s}", "R", chosen->R, "c", chosen->c, "weight", map->weight,
-                           "weighted_fabric", numbers_to_json(map->weighted_fabric, 6), "delta",
-                           numbers_to_json(delta, 6), "sign", sign_name(chosen));
+  json_t *more =
+      json_pack("{s:f, s:f, s:b, s:f, s:o, s:o, s:s}", "R", chosen->R, "c", chosen->c, "corrected", chosen->corrected,
+                "weight", map->weight, "weighted_fabric", numbers_to_json(map->weighted_fabric, 6), "delta",
+                numbers_to_json(delta, 6), "sign", sign_name(chosen));
   if (json_object_update(object, more)) {
     json_decref(object);
     object = NULL;
   }
   json_decref(more);
+  uncertainty_to_json(found, true, object);
   return print_json(object);
 }
 
-static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, const hypofab_initial_delta *map) {
+static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, const hypofab_initial_delta *map,
+                          const uncertainty *found) {
   double delta[6];
   signed_delta(chosen, map, delta);
   print_fabric(fabric);
+  uncertainty_print(found, fabric, true);
+  if (chosen->corrected) printf("\nWithout noise (--corrected):\n");
   printf("\nweight f(a), c = %-16g  %.6f\n\n", chosen->c, map->weight);
   print_tensor_head();
   print_tensor("A", map->weighted_fabric);
@@ -90,18 +118,33 @@ static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, c
   return cli_finish_output();
 }
 
+static int show(const choices *chosen, const hypofab_fabric *fabric, uncertainty *found) {
+  hypofab_fabric used = *fabric;
+  hypofab_initial_delta map;
+  hypofab_status status = uncertainty_intervals(found, chosen->R, chosen->c, chosen->corrected);
+  if (!status && chosen->corrected) status = uncertainty_correct(found, fabric, &used);
+  if (!status) status = hypofab_fabric_to_delta(&used, chosen->R, chosen->c, &map);
+  if (status) return cli_exit(status);
+  sign_intervals(chosen, found->intervals.delta);
+  return chosen->json ? print_as_json(chosen, fabric, &map, found) : print_as_table(chosen, fabric, &map, found);
+}
+
 int cmd_delta(int argc, char **argv) {
-  static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1}, {0}};
-  static const struct argp parser = {
-      .options = options, .parser = parse, .args_doc = "FILE\n--N XX,YY,ZZ,XY,XZ,YZ", .doc = doc, .children = children};
-  choices chosen = {.R = 1e-4, .c = 0.05};
+  static const struct argp_child children[] = {
+      {.argp = &contact_argp, .group = 1}, {.argp = &uncertainty_argp, .group = 2}, {0}};
+  static const struct argp parser = {.options = options,
+                                     .parser = parse,
+                                     .args_doc = "FILE...\n--N XX,YY,ZZ,XY,XZ,YZ",
+                                     .doc = doc,
+                                     .children = children};
+  choices chosen = {.contacts = {.several = true}, .uncertainty = uncertainty_defaults, .R = 1e-4, .c = 0.05};
   argp_err_exit_status = CLI_BAD_INPUT;
   if (argp_parse(&parser, argc, argv, 0, NULL, &chosen)) return CLI_INTERNAL_ERROR;
 
   hypofab_fabric fabric;
-  hypofab_initial_delta map;
-  hypofab_status status = contact_options_fabric(&chosen.contacts, &fabric);
-  if (!status) status = hypofab_fabric_to_delta(&fabric, chosen.R, chosen.c, &map);
-  if (status) return cli_exit(status);
-  return chosen.json ? print_as_json(&chosen, &fabric, &map) : print_as_table(&chosen, &fabric, &map);
+  uncertainty found;
+  hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
+  const int exit_code = status ? cli_exit(status) : show(&chosen, &fabric, &found);
+  uncertainty_free(&found);
+  return exit_code;
 }

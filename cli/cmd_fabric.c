@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/report.h"
+#include "cli/uncertainty_options.h"
 
 static json_t *count(int64_t value) { return value > 0 ? json_integer((json_int_t)value) : json_null(); }
 
@@ -70,6 +71,7 @@ enum { KEY_JSON = 0x100 };
 
 typedef struct choices {
   contact_options contacts;
+  uncertainty_options uncertainty;
   bool json;
 } choices;
 
@@ -86,6 +88,7 @@ static const char doc[] =
     "  hypofab fabric contacts.txt.gz --particles particles.txt.gz\n"
     "  hypofab fabric contacts.csv --particles 20000 --json\n"
     "  hypofab fabric dump.txt --id1 1 --id2 2 --nx 6 --ny 7 --nz 8\n"
+    "  hypofab fabric contacts.txt.gz --bootstrap 1000 --blocks 5\n"
     "  hypofab fabric --N .318,.362,.320,.001,-.002,0\n"
     "\n"
     "Normals must be unit vectors; their sense does not matter. Without --particles, particles that touch nothing are "
@@ -95,24 +98,46 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   choices *chosen = state->input;
   (void)text;
   switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &chosen->contacts; return 0;
+    case ARGP_KEY_INIT:
+      state->child_inputs[0] = &chosen->contacts;
+      state->child_inputs[1] = &chosen->uncertainty;
+      return 0;
     case KEY_JSON: chosen->json = true; return 0;
+    case ARGP_KEY_END: uncertainty_check(state, &chosen->contacts, &chosen->uncertainty); return 0;
     default: return ARGP_ERR_UNKNOWN;
   }
 }
 
+static int show_json(const hypofab_fabric *fabric, const uncertainty *found) {
+  json_t *object = fabric_to_json(fabric);
+  uncertainty_to_json(found, false, object);
+  return print_json(object);
+}
+
+static int show(const hypofab_fabric *fabric, const uncertainty *found) {
+  print_fabric(fabric);
+  uncertainty_print(found, fabric, false);
+  return cli_finish_output();
+}
+
 int cmd_fabric(int argc, char **argv) {
-  static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1}, {0}};
-  static const struct argp parser = {
-      .options = options, .parser = parse, .args_doc = "FILE\n--N XX,YY,ZZ,XY,XZ,YZ", .doc = doc, .children = children};
-  choices chosen = {0};
+  static const struct argp_child children[] = {
+      {.argp = &contact_argp, .group = 1}, {.argp = &uncertainty_argp, .group = 2}, {0}};
+  static const struct argp parser = {.options = options,
+                                     .parser = parse,
+                                     .args_doc = "FILE...\n--N XX,YY,ZZ,XY,XZ,YZ",
+                                     .doc = doc,
+                                     .children = children};
+  choices chosen = {.contacts = {.several = true}, .uncertainty = uncertainty_defaults};
   argp_err_exit_status = CLI_BAD_INPUT;
   if (argp_parse(&parser, argc, argv, 0, NULL, &chosen)) return CLI_INTERNAL_ERROR;
 
   hypofab_fabric fabric;
-  hypofab_status status = contact_options_fabric(&chosen.contacts, &fabric);
-  if (status) return cli_exit(status);
-  if (chosen.json) return print_json(fabric_to_json(&fabric));
-  print_fabric(&fabric);
-  return cli_finish_output();
+  uncertainty found;
+  hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
+  /* Of delta nothing is shown: R and c are of no consequence. */
+  if (!status) status = uncertainty_intervals(&found, 1.0, 1.0, false);
+  const int exit_code = status ? cli_exit(status) : chosen.json ? show_json(&fabric, &found) : show(&fabric, &found);
+  uncertainty_free(&found);
+  return exit_code;
 }
