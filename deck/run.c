@@ -17,19 +17,19 @@ typedef struct run {
   bool asked_to_stop;
 } run;
 
-static void write_header(FILE *stream) {
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
+static void write_header(int columns, FILE *stream) {
+  for (int i = 0; i < columns; ++i) {
     fprintf(stream, "%s%s", i ? "," : "", hypofab_quantity_name(i));
     if (i == HYPOFAB_TIME) fputs(",step", stream);
   }
   fputc('\n', stream);
 }
 
-static void write_row(const hypofab_study *study, const hypofab_row *row, FILE *stream) {
+static void write_row(const hypofab_study *study, int columns, const hypofab_row *row, FILE *stream) {
   char line[(HYPOFAB_N_QUANTITIES + 2) * OUTPUT_NUMBER_SIZE];
   int used = output_number(line, ' ', row->value[HYPOFAB_TIME]);
   used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d", row->step + 1);
-  for (int i = HYPOFAB_TIME + 1; i < HYPOFAB_N_QUANTITIES; ++i)
+  for (int i = HYPOFAB_TIME + 1; i < columns; ++i)
     used += output_number(line + used, ',', study_quantity_sign(study, i) * row->value[i]);
   line[used++] = '\n';
   fwrite(line + 1, 1, (size_t)used - 1, stream); /* without the blank in front */
@@ -52,7 +52,7 @@ static int take_row(const hypofab_row *row, void *user) {
   if (result->rows++ == 0) result->start = *row;
   result->ends[row->step] = *row;
   result->steps_begun = (unsigned)row->step + 1;
-  write_row(run->study, row, run->file.stream);
+  write_row(run->study, study_columns(&run->study->tests[run->index]), row, run->file.stream);
   if (run->progress)
     run->asked_to_stop =
         run->progress(run->study->deck->tests[run->index].name, fraction_done(run, row), run->user) != 0;
@@ -72,7 +72,7 @@ static hypofab_status run_test(run *run, const char *directory) {
   if (!result->ends) return hypofab_fail(HYPOFAB_NO_MEMORY, "test '%s': out of memory", name);
   hypofab_status status = output_open(&run->file, directory, file_name);
   if (status) return status;
-  write_header(run->file.stream);
+  write_header(study_columns(test), run->file.stream);
 
   hypofab_test_outcome outcome = {0};
   status = hypofab_test_run(&study->materials[state->material], &state->initial, test->steps, (int)test->n_steps,

@@ -89,6 +89,7 @@ typedef struct deck_test {
   char *name;
   char *state;
   int *integrator;
+  int *stability;
   double *tolerance;
   deck_step *steps;
   unsigned steps_count;

@@ -73,8 +73,14 @@ static inline double study_sign(const hypofab_study *study) {
 /** The same for a quantity: stress, strain, eps_v and delta have a sign to change; p, q, pore pressure keep theirs. */
 static inline double study_quantity_sign(const hypofab_study *study, hypofab_quantity quantity) {
   const bool has_sign = (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_DELTA_YZ) || quantity == HYPOFAB_EPS_V ||
-                        (quantity >= HYPOFAB_TOT_XX && quantity <= HYPOFAB_TOT_ZZ);
+                        (quantity >= HYPOFAB_TOT_XX && quantity <= HYPOFAB_TOT_ZZ) ||
+                        (quantity >= HYPOFAB_WORK2_XX && quantity <= HYPOFAB_WORK2_YZ);
   return has_sign ? study_sign(study) : 1.0;
+}
+
+/** Quantities in the results of a test: those of stability when it asks for them. */
+static inline int study_columns(const study_test *test) {
+  return test->options.stability ? HYPOFAB_N_QUANTITIES : HYPOFAB_FIRST_STABILITY;
 }
 
 /** Has a material intergranular strain? (m_R <= 0.5 switches it off.) */

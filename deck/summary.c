@@ -1,9 +1,9 @@
 #include "deck/json_values.h"
 #include "deck/run.h"
 
-static json_t *row_object(const hypofab_study *study, const hypofab_row *row) {
+static json_t *row_object(const hypofab_study *study, unsigned test, const hypofab_row *row) {
   json_t *object = json_object();
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i)
+  for (int i = 0; i < study_columns(&study->tests[test]); ++i)
     json_object_set_new(object, hypofab_quantity_name(i), json_number(study_quantity_sign(study, i) * row->value[i]));
   return object;
 }
@@ -33,7 +33,7 @@ static json_t *steps_array(const hypofab_study *study, unsigned test, const stud
     json_t *step = json_object();
     json_object_set_new(step, "name", name ? json_string(name) : json_null());
     json_object_set_new(step, "reached", json_boolean(reached));
-    json_object_set_new(step, "end", row_object(study, &result->ends[i]));
+    json_object_set_new(step, "end", row_object(study, test, &result->ends[i]));
     json_object_set_new(step, "secant_stiffness", json_number(secant_stiffness(&result->start, &result->ends[i])));
     json_array_append_new(array, step);
   }
@@ -59,7 +59,7 @@ static json_t *test_object(const hypofab_study *study, unsigned index, const stu
   json_object_set_new(object, "material", json_of_material(&study->materials[state->material]));
   if (state->has_fabric)
     json_object_set_new(object, "fabric", fabric_object(state, study->deck->states[study->tests[index].state].delta));
-  json_object_set_new(object, "initial", result->rows ? row_object(study, &result->start) : json_null());
+  json_object_set_new(object, "initial", result->rows ? row_object(study, index, &result->start) : json_null());
   json_object_set_new(object, "steps", steps_array(study, index, result));
   return object;
 }

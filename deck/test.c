@@ -23,6 +23,7 @@ static hypofab_status resolve_test(hypofab_study *study, const deck_source *sour
     return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("tests[%u].tolerance", index),
                        "%g, expected a relative tolerance between 0 and 1", *given->tolerance);
   test->options.integrator = given->integrator ? (hypofab_integrator)*given->integrator : HYPOFAB_ERK;
+  test->options.stability = given->stability ? *given->stability : 0;
   test->options.tolerance = given->tolerance ? *given->tolerance : 0.0;
 
   test->n_steps = given->steps_count;

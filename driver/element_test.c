@@ -91,7 +91,7 @@ static hypofab_status run_step(run *r, const hypofab_step *step) {
 hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_state *initial,
                                 const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
                                 hypofab_row_sink sink, void *user, hypofab_test_outcome *outcome) {
-  run r = {.observer = {.material = material, .axis = 2, .normal = 1},
+  run r = {.observer = {.material = material, .axis = 2, .normal = 1, .with_stability = options && options->stability},
            .sink = sink,
            .user = user,
            .state = {.material = *initial}};

@@ -222,6 +222,7 @@ static hypofab_status integrate_leg(run *r, const hypofab_step *step, schedule *
 
 hypofab_status leg_run(run *r, const hypofab_step *leg) {
   schedule s;
+  r->observer.conditions = *leg;
   hypofab_status status = make_schedule(r, leg, &s);
   if (status) return status;
   const int met_already =

@@ -21,6 +21,7 @@ void observer_begin_step(observer *observer, const hypofab_step *step, const tes
   observer->pressure = quantity_value(HYPOFAB_PORE_PRESSURE, observer, 0.0, state);
   observer->start = *state;
   observer->water = step->pore_water;
+  observer->conditions = *step;
   observer->half_cycles = 0.0;
   observer_frame(step, &observer->axis, &observer->normal, &observer->lateral);
   if (!observer_is_undrained(step)) {

@@ -5,14 +5,71 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const names[HYPOFAB_N_QUANTITIES] = {
-    "time",     "eps_xx",   "eps_yy",   "eps_zz",   "eps_xy",   "eps_xz",        "eps_yz",
-    "sig_xx",   "sig_yy",   "sig_zz",   "sig_xy",   "sig_xz",   "sig_yz",        "delta_xx",
-    "delta_yy", "delta_zz", "delta_xy", "delta_xz", "delta_yz", "void_ratio",    "p",
-    "q",        "eps_v",    "eps_q",    "rho",      "phi_mob",  "q_signed",      "eta",
-    "s",        "t",        "lode",     "b",        "alpha",    "pore_pressure", "pore_pressure_ratio",
-    "tot_xx",   "tot_yy",   "tot_zz",   "p_tot",    "eps_acc",  "eps_path",      "stress_work",
-    "cycle"};
+#include "driver/stability_quantity.h"
+
+static const char *const names[HYPOFAB_N_QUANTITIES] = {"time",
+                                                        "eps_xx",
+                                                        "eps_yy",
+                                                        "eps_zz",
+                                                        "eps_xy",
+                                                        "eps_xz",
+                                                        "eps_yz",
+                                                        "sig_xx",
+                                                        "sig_yy",
+                                                        "sig_zz",
+                                                        "sig_xy",
+                                                        "sig_xz",
+                                                        "sig_yz",
+                                                        "delta_xx",
+                                                        "delta_yy",
+                                                        "delta_zz",
+                                                        "delta_xy",
+                                                        "delta_xz",
+                                                        "delta_yz",
+                                                        "void_ratio",
+                                                        "p",
+                                                        "q",
+                                                        "eps_v",
+                                                        "eps_q",
+                                                        "rho",
+                                                        "phi_mob",
+                                                        "q_signed",
+                                                        "eta",
+                                                        "s",
+                                                        "t",
+                                                        "lode",
+                                                        "b",
+                                                        "alpha",
+                                                        "pore_pressure",
+                                                        "pore_pressure_ratio",
+                                                        "tot_xx",
+                                                        "tot_yy",
+                                                        "tot_zz",
+                                                        "p_tot",
+                                                        "eps_acc",
+                                                        "eps_path",
+                                                        "stress_work",
+                                                        "cycle",
+                                                        "work2",
+                                                        "work2_cos",
+                                                        "control_det",
+                                                        "control_cond",
+                                                        "work2_min",
+                                                        "work2_ratio",
+                                                        "work2_xx",
+                                                        "work2_yy",
+                                                        "work2_zz",
+                                                        "work2_xy",
+                                                        "work2_xz",
+                                                        "work2_yz",
+                                                        "acoustic_det",
+                                                        "acoustic_ratio",
+                                                        "band_x",
+                                                        "band_y",
+                                                        "band_z",
+                                                        "band_angle",
+                                                        "band_dilatancy",
+                                                        "bound"};
 
 const char *hypofab_quantity_name(hypofab_quantity quantity) {
   return (unsigned)quantity < HYPOFAB_N_QUANTITIES ? names[quantity] : NULL;
@@ -118,13 +175,20 @@ double quantity_value(hypofab_quantity quantity, const observer *o, double time,
   if (quantity <= HYPOFAB_EPS_YZ) return state->strain[quantity - HYPOFAB_EPS_XX];
   if (quantity <= HYPOFAB_SIG_YZ) return stress[quantity - HYPOFAB_SIG_XX];
   if (quantity <= HYPOFAB_DELTA_YZ) return point->delta[quantity - HYPOFAB_DELTA_XX];
-  return NAN;
+  if (quantity >= HYPOFAB_N_QUANTITIES) return NAN;
+  double value[HYPOFAB_N_QUANTITIES];
+  stability_quantities(o, state, value);
+  return value[quantity];
 }
 
 void quantity_row(const observer *observer, double time, const test_state *state, int step, hypofab_row *row) {
   *row = (hypofab_row){.step = step, .event = HYPOFAB_EVENT_ROW, .stop = -1};
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; i++)
+  for (int i = 0; i < HYPOFAB_FIRST_STABILITY; i++)
     row->value[i] = quantity_value((hypofab_quantity)i, observer, time, state);
+  if (observer->with_stability)
+    stability_quantities(observer, state, row->value);
+  else
+    for (int i = HYPOFAB_FIRST_STABILITY; i < HYPOFAB_N_QUANTITIES; i++) row->value[i] = NAN;
 }
 
 int quantity_coefficients(hypofab_quantity quantity, const hypofab_step *step, double on_stress[6],

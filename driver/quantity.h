@@ -26,6 +26,8 @@ typedef struct observer {
   double pressure;              /**< pore pressure at the start of the step */
   test_state start;             /**< state there */
   double reference_pressure, p; /**< pore pressure and p when the undrained phase began; p = 0: there was none */
+  hypofab_step conditions;      /**< of the current leg */
+  int with_stability;           /**< fill rows with the quantities of stability too */
 } observer;
 
 /** Frame of a step: its axis, normal and the remaining axis. */

@@ -307,6 +307,29 @@ typedef enum hypofab_quantity {
   HYPOFAB_EPS_PATH, /**< length of the strain path, integral of |D| */
   HYPOFAB_WORK,     /**< stress work per volume, integral of T:D [stress] */
   HYPOFAB_CYCLE,    /**< half cycles done in the step, over two */
+  /* Stability (hypofab_stability, hypofab_control_stability). In rows NaN unless hypofab_test_options.stability asks
+   * for them: they cost about a thousand rate evaluations each row. */
+  HYPOFAB_FIRST_STABILITY,
+  HYPOFAB_WORK2 = HYPOFAB_FIRST_STABILITY, /**< second-order work Tdot:D/|D|^2 along the path [stress] */
+  HYPOFAB_WORK2_COS,                       /**< Tdot:D/(|Tdot||D|) along the path */
+  HYPOFAB_CONTROL_DET,                     /**< determinant of the conditions of the step, over that without memory */
+  HYPOFAB_CONTROL_COND,                    /**< their condition number */
+  HYPOFAB_WORK2_MIN,                       /**< smallest second-order work over |D| = 1 [stress] */
+  HYPOFAB_WORK2_RATIO,                     /**< over that without memory */
+  HYPOFAB_WORK2_XX,                        /**< the D that has it */
+  HYPOFAB_WORK2_YY,
+  HYPOFAB_WORK2_ZZ,
+  HYPOFAB_WORK2_XY,
+  HYPOFAB_WORK2_XZ,
+  HYPOFAB_WORK2_YZ,
+  HYPOFAB_ACOUSTIC_DET,   /**< smallest determinant of the acoustic tensor [stress^3] */
+  HYPOFAB_ACOUSTIC_RATIO, /**< over that without memory */
+  HYPOFAB_BAND_X,         /**< normal of the plane that has it */
+  HYPOFAB_BAND_Y,
+  HYPOFAB_BAND_Z,
+  HYPOFAB_BAND_ANGLE,     /**< between the normal and the most compressive principal stress [deg] */
+  HYPOFAB_BAND_DILATANCY, /**< [deg] */
+  HYPOFAB_BOUND,          /**< |L^-1 N| of the plain model */
   HYPOFAB_N_QUANTITIES
 } hypofab_quantity;
 
@@ -493,6 +516,7 @@ typedef struct hypofab_test_options {
   hypofab_integrator integrator;
   double tolerance; /**< relative tolerance of the integrator; default 1e-8, of CVODE and IDA 1e-11 */
   long max_steps;   /**< integrator steps per step of the test; default 1000000 */
+  int stability;    /**< non-zero: rows with the quantities of stability too */
 } hypofab_test_options;
 
 /** How an element test ended. */

@@ -244,10 +244,10 @@ static void rows_columns_and_summary_are_those_asked_for(void **state) {
   assert_int_equal(run_text(deck_in("kPa", 1, 1), scratch_path("a/b/out"), NULL, NULL), HYPOFAB_OK);
   assert_int_equal(scratch_count(scratch_path("a/b/out")), 3); /* two tests and the summary, no temporary file */
   table t = table_read(scratch_path("a/b/out/mixed.csv"));
-  assert_int_equal(t.columns, HYPOFAB_N_QUANTITIES + 1);
+  assert_int_equal(t.columns, HYPOFAB_FIRST_STABILITY + 1);
   assert_string_equal(t.names[0], "time");
   assert_string_equal(t.names[1], "step");
-  for (int i = 1; i < HYPOFAB_N_QUANTITIES; ++i) assert_string_equal(t.names[i + 1], hypofab_quantity_name(i));
+  for (int i = 1; i < HYPOFAB_FIRST_STABILITY; ++i) assert_string_equal(t.names[i + 1], hypofab_quantity_name(i));
   assert_true(table_at(&t, 0, "step") == 1 && table_at(&t, 20, "step") == 1 && table_at(&t, 21, "step") == 2);
   assert_true(fabs(table_at(&t, 20, "eps_zz") + 0.002) < 1e-12);
   assert_true(fabs(table_at(&t, -1, "p") - 110) < 1e-9);
@@ -258,7 +258,7 @@ static void rows_columns_and_summary_are_those_asked_for(void **state) {
   for (int k = 0; k < 2; ++k) {
     const long row = k == 0 ? 20 : -1;
     const json_t *step = json_array_get(steps, k), *end = json_object_get(step, "end");
-    for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) { /* the file keeps every digit */
+    for (int i = 0; i < HYPOFAB_FIRST_STABILITY; ++i) { /* the file keeps every digit */
       const char *name = hypofab_quantity_name(i);
       assert_true(json_number_value(json_object_get(end, name)) == table_at(&t, row, name));
     }
@@ -295,6 +295,38 @@ static void the_integrator_is_a_choice(void **state) {
     json_decref(summary);
   }
   assert_true(fabs(strain[1] / strain[0] - 1) < 1e-6 && fabs(strain[2] / strain[0] - 1) < 1e-6);
+}
+
+/* Measures of stability are columns on request, in the deck's sign, and an end of a step without being columns. */
+static void stability_is_a_choice(void **state) {
+  (void)state;
+  double work[2];
+  for (int i = 0; i < 2; i++) {
+    char text[1024];
+    snprintf(
+        text, sizeof text,
+        "sign: %s\n"
+        "materials:\n  - {name: sand, sand: hochstetten, intergranular: false}\n"
+        "states:\n  - {name: s, material: sand, p: 100, void_ratio: 0.65}\n"
+        "tests:\n  - name: t\n    state: s\n    stability: true\n    steps:\n"
+        "      - {preset: drained_triaxial_compression, axis: z, until: {quantity: q, value: 100}, rows: 5}\n"
+        "  - name: until\n    state: s\n    steps:\n"
+        "      - {preset: drained_triaxial_compression, axis: z, until: {quantity: work2_ratio, value: 0}, rows: 5}\n",
+        i ? "compression_positive" : "tension_positive");
+    assert_int_equal(run_text(text, scratch_path("out"), NULL, NULL), HYPOFAB_OK);
+    table t = table_read(scratch_path("out/t.csv"));
+    assert_int_equal(t.columns, HYPOFAB_N_QUANTITIES + 1);
+    assert_true(table_at(&t, -1, "work2_min") > 0 && table_at(&t, -1, "work2") > table_at(&t, -1, "work2_min"));
+    assert_true(table_at(&t, -1, "acoustic_ratio") > 0 && table_at(&t, -1, "bound") < 1);
+    work[i] = table_at(&t, -1, "work2_zz");
+    json_t *summary = summary_read(scratch_path("out"));
+    const json_t *steps = json_object_get(summary_test(summary, 0), "steps");
+    const json_t *end = json_object_get(json_array_get(steps, 0), "end");
+    assert_true(json_number_value(json_object_get(end, "control_det")) == table_at(&t, -1, "control_det"));
+    json_decref(summary);
+    table_free(&t);
+  }
+  assert_true(work[0] < 0 && work[0] == -work[1]);
 }
 
 /* A test that asks for more stress than the sand can carry, and one behind it that is fine. */
@@ -429,6 +461,7 @@ int main(void) {
       TEST(without_intergranular_strain_delta_stays_zero),
       TEST(rows_columns_and_summary_are_those_asked_for),
       TEST(the_integrator_is_a_choice),
+      TEST(stability_is_a_choice),
       TEST(a_physical_stop_keeps_the_rows_and_the_tests_behind_it),
       TEST(an_interruption_keeps_the_rows_so_far),
       TEST(progress_rises_to_the_end),

@@ -520,6 +520,62 @@ static void test_determinant_of_the_control(void **unused) {
   }
 }
 
+/* As columns of a test, on request, and as its end: where the smallest work vanishes, and where the path's does. */
+static void test_quantities_of_a_test(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  material.m_R = 0.0;
+  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.65};
+  const hypofab_test_options options = {.stability = 1};
+  hypofab_step step;
+  recorder r = {0};
+  memset(&step, 0, sizeof step);
+  assert_int_equal(hypofab_step_preset(&step, "drained_triaxial_compression", 2, 1.0), HYPOFAB_OK);
+  step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.1};
+  step.rows = 6;
+  assert_int_equal(hypofab_test_run(&material, &state, &step, 1, &options, recorder_take, &r, NULL), HYPOFAB_OK);
+  for (int i = 0; i < r.n; i++) {
+    const double *value = r.rows[i].value;
+    hypofab_state at = {.void_ratio = value[HYPOFAB_VOID_RATIO]};
+    for (int c = 0; c < 6; c++) at.stress[c] = value[HYPOFAB_SIG_XX + c];
+    hypofab_stability s;
+    hypofab_control_stability path;
+    assert_int_equal(hypofab_stability_state(&material, &at, &s), HYPOFAB_OK);
+    assert_int_equal(hypofab_stability_control(&material, &at, &step, &path), HYPOFAB_OK);
+    assert_true(value[HYPOFAB_WORK2] == path.work && value[HYPOFAB_WORK2_COS] == path.work_cosine);
+    assert_true(value[HYPOFAB_CONTROL_DET] == path.determinant && value[HYPOFAB_CONTROL_COND] == path.condition);
+    assert_true(value[HYPOFAB_WORK2_MIN] == s.work && value[HYPOFAB_WORK2_RATIO] == s.work_ratio);
+    assert_true(value[HYPOFAB_WORK2_ZZ] == s.work_direction[2] && value[HYPOFAB_BOUND] == s.bound);
+    assert_true(value[HYPOFAB_ACOUSTIC_DET] == s.acoustic && value[HYPOFAB_ACOUSTIC_RATIO] == s.acoustic_ratio);
+    assert_true(value[HYPOFAB_BAND_Z] == s.band_normal[2] && value[HYPOFAB_BAND_DILATANCY] == s.band_dilatancy);
+    if (i > 0) assert_true(value[HYPOFAB_BAND_ANGLE] == s.band_angle);
+  }
+  assert_true(r.rows[0].value[HYPOFAB_WORK2] > 0.0 && r.rows[r.n - 1].value[HYPOFAB_WORK2] < 0.0); /* past the peak */
+  recorder_clear(&r);
+
+  step.until = (hypofab_mark){HYPOFAB_WORK2_MIN, 0.0};
+  step.rows = 0;
+  hypofab_test_outcome first, peak;
+  assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, &first), HYPOFAB_OK);
+  for (int i = HYPOFAB_FIRST_STABILITY; i < HYPOFAB_N_QUANTITIES; i++) assert_true(isnan(r.rows[0].value[i]));
+  recorder_clear(&r);
+  hypofab_stability s;
+  assert_int_equal(hypofab_stability_state(&material, &first.state, &s), HYPOFAB_OK);
+  assert_true(fabs(s.work_ratio) < 1e-10);
+  step.until = (hypofab_mark){HYPOFAB_WORK2, 0.0};
+  assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, NULL, NULL, &peak), HYPOFAB_OK);
+  assert_true(peak.last.value[HYPOFAB_EPS_ZZ] <
+              first.last.value[HYPOFAB_EPS_ZZ]); /* first some direction, then the path */
+  step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.1};
+  step.rows = 400;
+  assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, NULL), HYPOFAB_OK);
+  double q = 0.0;
+  for (int i = 0; i < r.n; i++) q = fmax(q, r.rows[i].value[HYPOFAB_Q]);
+  assert_true(fabs(peak.last.value[HYPOFAB_Q] / q - 1.0) < 1e-5);
+  recorder_clear(&r);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_linear_limit),
@@ -533,6 +589,7 @@ int main(void) {
       cmocka_unit_test(test_objectivity_and_homogeneity),
       cmocka_unit_test(test_undrained_instability),
       cmocka_unit_test(test_determinant_of_the_control),
+      cmocka_unit_test(test_quantities_of_a_test),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
