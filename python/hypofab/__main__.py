@@ -6,7 +6,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import figures, stiffness
+from hypofab import figures, probe_surfaces, stiffness
+from hypofab.probes import has_probes, is_classical, read_probes
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
 
 
@@ -35,14 +36,15 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
         zoom = None if options.zoom is None else options.zoom / 100
         save(figures.stress_strain(run, zoom=zoom), directory / "stress_strain")
         save(figures.volumetric(run, compression_positive=options.compression_positive), directory / "volumetric")
+    probes = {envelope.file: envelope for envelope in read_probes(directory)} if has_probes(directory) else {}
     for path in envelopes:
-        figure = figures.response_envelopes(
-            read_envelope(path),
-            unit=options.envelope_unit,
-            series_compression_positive=options.envelope_compression_positive,
-            compression_positive=options.compression_positive,
-        )
-        save(figure, path.with_suffix(""))
+        stem = path.with_suffix("")
+        if path in probes:
+            for suffix, figure in probe_surfaces.figures_of(probes[path], options.compression_positive).items():
+                save(figure, stem.with_name(stem.name + suffix))
+        if path not in probes or is_classical(probes[path]):
+            figure = figures.response_envelopes(read_envelope(path), compression_positive=options.compression_positive)
+            save(figure, stem)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -57,8 +59,6 @@ def parser() -> argparse.ArgumentParser:
     draw.add_argument("directories", nargs="+", metavar="DIR", type=Path, help="results of hypofab run or envelope")
     draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
-    draw.add_argument("--envelope-unit", default="kPa", metavar="UNIT", help="of the deck of an envelope (kPa)")
-    draw.add_argument("--envelope-compression-positive", action="store_true", help="sign of the deck of an envelope")
     return top
 
 

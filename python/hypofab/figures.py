@@ -143,8 +143,6 @@ def _mark(axes: Axes, point: tuple[float, float], offset: tuple[float, float], l
 def response_envelopes(
     series: Sequence[EnvelopeSeries],
     *,
-    unit: str = "kPa",
-    series_compression_positive: bool = False,
     compression_positive: bool = False,
 ) -> Figure:
     """Response envelopes around the stress T0 in the axisymmetric plane (paper 000, Figure 1).
@@ -152,11 +150,10 @@ def response_envelopes(
     The plane is isometric: sqrt(2) times the lateral over the axial stress rate, both per unit strain rate. An arrow in
     the line's colour shows the intergranular strain of each state that has one, to the scale of R.
 
-    unit, series_compression_positive: unit of stress and sign of the results, which the file does not tell.
-    compression_positive: sign in the figure.
+    compression_positive: sign in the figure, whatever that of the results.
     """
-    sign = 1 if compression_positive == series_compression_positive else -1
-    factor, unit = (1e-3, "MPa") if unit == "kPa" else (1.0, unit)
+    sign = 1 if compression_positive == series[0].compression_positive else -1
+    factor, unit = (1e-3, "MPa") if series[0].unit == "kPa" else (1.0, series[0].unit)
     with rc_context(STYLE):
         figure = Figure(figsize=(110 / INCH, 115 / INCH), layout="constrained")
         axes = figure.add_subplot()

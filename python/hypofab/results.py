@@ -68,9 +68,13 @@ class EnvelopeSeries:
     """sqrt(2) times the mean lateral stress response, shape (probes,): the plane is isometric."""
     delta: tuple[float, float]
     """Axial and lateral part of delta/R of the state, in the same isometric measure; (0, 0) without delta."""
+    unit: str = "kPa"
+    """Unit of stress: Pa, kPa or MPa."""
+    compression_positive: bool = False
+    """Sign of stress, strain and delta."""
 
 
-def _read_columns(path: Path) -> dict[str, list[str]]:
+def read_columns(path: Path) -> dict[str, list[str]]:
     """The columns of a CSV file by the names of its header; ResultError when it is no table."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
@@ -99,7 +103,7 @@ def _numbers(path: Path, columns: Mapping[str, list[str]], name: str) -> Array:
 def read_test(path: str | Path) -> TestResult:
     """Read DIR/<test>.csv as `hypofab run` writes it; the name is that of the file."""
     path = Path(path)
-    columns = _read_columns(path)
+    columns = read_columns(path)
 
     def scalar(name: str) -> Array:
         return _numbers(path, columns, name)
@@ -127,7 +131,7 @@ def read_test(path: str | Path) -> TestResult:
 def read_envelope(path: str | Path) -> list[EnvelopeSeries]:
     """Read DIR/<envelope>.csv as `hypofab envelope` writes it: its series in the order of the file."""
     path = Path(path)
-    columns = _read_columns(path)
+    columns = read_columns(path)
     if "series" not in columns:
         raise ResultError(f"{path}: no column series")
     names = np.array(columns["series"])
@@ -140,7 +144,9 @@ def read_envelope(path: str | Path) -> list[EnvelopeSeries]:
         rows = np.flatnonzero(names == name)
         rows = rows[np.argsort(angle[rows], kind="stable")]
         delta = (float(delta_axial[rows[0]]), float(delta_lateral[rows[0]]))
-        series.append(EnvelopeSeries(name, angle[rows], axial[rows], lateral[rows], delta))
+        unit = columns["unit"][rows[0]] if "unit" in columns else "kPa"
+        opposite = "sign" in columns and columns["sign"][rows[0]] == "compression_positive"
+        series.append(EnvelopeSeries(name, angle[rows], axial[rows], lateral[rows], delta, unit, opposite))
     return series
 
 
