@@ -102,7 +102,9 @@ static void every_example_passes_the_check(void **state) {
   (void)state;
   const char *const examples[] = {EXAMPLE("directional_stiffness.yaml"), EXAMPLE("directional_stiffness_dem.yaml"),
                                   EXAMPLE("response_envelopes.yaml"),    EXAMPLE("oedometer.yaml"),
-                                  EXAMPLE("undrained_triaxial.yaml"),    EXAMPLE("own_sand.yaml")};
+                                  EXAMPLE("undrained_triaxial.yaml"),    EXAMPLE("own_sand.yaml"),
+                                  EXAMPLE("strain_probes.yaml"),         EXAMPLE("stress_probes.yaml"),
+                                  EXAMPLE("response_surfaces.yaml")};
   for (size_t i = 0; i < sizeof examples / sizeof *examples; ++i) {
     program_run run = program("check", examples[i], NULL);
     expect(&run, 0, "is good\n", "");
