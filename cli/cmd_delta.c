@@ -1,27 +1,52 @@
 /* hypofab delta: contact list or fabric tensor -> initial intergranular strain. */
 #include <argp.h>
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "cli/axes_options.h"
 #include "cli/cmd_fabric.h"
 #include "cli/commands.h"
 #include "cli/contact_options.h"
+#include "cli/delta_formats.h"
 #include "cli/report.h"
 #include "cli/uncertainty_options.h"
 
-enum { KEY_JSON = 0x100, KEY_R, KEY_C, KEY_SIGN, KEY_CORRECTED };
+enum {
+  KEY_JSON = 0x100,
+  KEY_R,
+  KEY_C,
+  KEY_WEIGHT,
+  KEY_CORRECTED,
+  KEY_SIGN,
+  KEY_FORMAT,
+  KEY_SET,
+  KEY_VOID_RATIO,
+  KEY_ELEMENTS,
+  KEY_POINTS
+};
 
 typedef struct choices {
   contact_options contacts;
   uncertainty_options uncertainty;
+  axes_options axes;
   bool corrected;
   double R, c;
+  const char *weight;
+  const delta_format *format; /* NULL: a table or JSON */
+  delta_target target;
   bool json;
   bool compression_positive;
 } choices;
 
 static const struct argp_option options[] = {
     {.name = "R", .key = KEY_R, .arg = "NUMBER", .doc = "Size of the elastic strain range, |delta| (default: 1e-4)"},
-    {.name = "c", .key = KEY_C, .arg = "NUMBER", .doc = "Parameter of the weight f(a) = 1 - exp(-a/c) (default: 0.05)"},
+    {.name = "c", .key = KEY_C, .arg = "NUMBER", .doc = "Parameter of the weight function f(a) (default: 0.05)"},
+    {.name = "weight",
+     .key = KEY_WEIGHT,
+     .arg = "NAME",
+     .doc = "Weight function f(a): exponential, 1 - exp(-a/c) (default), rational, tanh or linear"},
     {.name = "corrected",
      .key = KEY_CORRECTED,
      .doc = "delta from F and a without the noise that the finite number of contacts adds to them"},
@@ -29,6 +54,22 @@ static const struct argp_option options[] = {
      .key = KEY_SIGN,
      .doc = "Soil-mechanics sign: print delta with compression positive (STATEV keeps tension positive)"},
     {.name = "json", .key = KEY_JSON, .doc = "Print a JSON object with all digits instead of a table"},
+    {.name = "format",
+     .key = KEY_FORMAT,
+     .arg = "NAME",
+     .doc =
+         "Print nothing but the lines to paste into a deck, STATEV(1:6), or the input of a finite element code: deck, "
+         "statev, abaqus, kratos or calculix"},
+    {.name = "set", .key = KEY_SET, .arg = "NAME", .doc = "Element set of --format abaqus (default: SOIL)"},
+    {.name = "void-ratio",
+     .key = KEY_VOID_RATIO,
+     .arg = "E",
+     .doc = "Void ratio, STATEV(7), of --format statev, abaqus, kratos (default: 0, which takes it from PROPS(16))"},
+    {.name = "elements", .key = KEY_ELEMENTS, .arg = "FIRST-LAST", .doc = "Elements of --format calculix (default: 1)"},
+    {.name = "points",
+     .key = KEY_POINTS,
+     .arg = "N",
+     .doc = "Integration points per element of --format calculix (default: 8, of C3D8)"},
     {0}};
 
 static const char doc[] =
@@ -42,9 +83,66 @@ static const char doc[] =
     "  hypofab delta --N .318,.362,.320,.001,-.002,0 --R 1e-4 --c 0.05 --json\n"
     "  hypofab delta contacts.txt.gz --corrected --bootstrap 1000\n"
     "  hypofab delta dump.txt --nx 6 --ny 7 --nz 8\n"
+    "  hypofab delta contacts.txt.gz --axes x,z,-y --format abaqus --set SAND --void-ratio 0.64\n"
+    "  hypofab delta contacts.txt.gz --format calculix --elements 1-400 --points 8 > delta.inp\n"
     "\n"
     "Components of tensors come in the order xx yy zz xy xz yz. A UMAT stores delta with engineering shear "
     "(gamma = 2 eps); the table ends with that line.";
+
+static const char *parse_weight(struct argp_state *state, const char *text) {
+  for (int i = 0; hypofab_weight_name(i); i++)
+    if (!strcmp(text, hypofab_weight_name(i))) return text;
+  argp_error(state, "--weight: '%s'; expected exponential, rational, tanh or linear", text);
+  return NULL;
+}
+
+static const delta_format *parse_format(struct argp_state *state, const char *text) {
+  const delta_format *format = delta_format_find(text);
+  if (!format) argp_error(state, "--format: '%s'; expected deck, statev, abaqus, kratos or calculix", text);
+  return format;
+}
+
+/* A whole number, 1 or more, at the beginning of a text; what follows is left. */
+static long parse_count(struct argp_state *state, const char *option, const char *text, char **end) {
+  errno = 0;
+  const long count = strtol(text, end, 10);
+  if (*end == text || errno || count < 1)
+    argp_error(state, "%s: '%s'; expected whole numbers, 1 or more", option, text);
+  return count;
+}
+
+static void parse_elements(struct argp_state *state, const char *text, delta_target *target) {
+  char *end;
+  target->first = target->last = parse_count(state, "--elements", text, &end);
+  if (*end == '-') target->last = parse_count(state, "--elements", end + 1, &end);
+  if (*end || target->last < target->first)
+    argp_error(state, "--elements: '%s'; expected a number, or FIRST-LAST", text);
+  target->has_elements = true;
+}
+
+static void parse_points(struct argp_state *state, const char *text, delta_target *target) {
+  char *end;
+  const long points = parse_count(state, "--points", text, &end);
+  if (*end || points > 1000) argp_error(state, "--points: '%s'; expected a number from 1 to 1000", text);
+  target->points = (int)points;
+  target->has_points = true;
+}
+
+static void parse_void_ratio(struct argp_state *state, const char *text, delta_target *target) {
+  target->void_ratio = parse_number(state, "--void-ratio", text);
+  if (!(target->void_ratio > 0.0)) argp_error(state, "--void-ratio: '%s'; expected a number > 0", text);
+  target->has_void_ratio = true;
+}
+
+static void check(struct argp_state *state, const choices *chosen) {
+  const char *problem = delta_format_problem(chosen->format, &chosen->target);
+  if (problem) argp_error(state, "%s", problem);
+  if (chosen->format && chosen->json) argp_error(state, "--format and --json exclude each other");
+  if (chosen->format && chosen->compression_positive)
+    argp_error(state, "--sign makes no sense with --format: codes and decks have signs of their own");
+  if (chosen->uncertainty.replicates && (chosen->axes.given || strcmp(chosen->weight, hypofab_weight_name(0)) != 0))
+    argp_error(state, "--bootstrap knows the axes of the contacts and the exponential weight only");
+}
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   choices *chosen = state->input;
@@ -52,8 +150,18 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     case ARGP_KEY_INIT:
       state->child_inputs[0] = &chosen->contacts;
       state->child_inputs[1] = &chosen->uncertainty;
+      state->child_inputs[2] = &chosen->axes;
       return 0;
     case KEY_CORRECTED: chosen->corrected = true; return 0;
+    case KEY_WEIGHT: chosen->weight = parse_weight(state, text); return 0;
+    case KEY_FORMAT: chosen->format = parse_format(state, text); return 0;
+    case KEY_SET:
+      chosen->target.set = text;
+      chosen->target.has_set = true;
+      return 0;
+    case KEY_VOID_RATIO: parse_void_ratio(state, text, &chosen->target); return 0;
+    case KEY_ELEMENTS: parse_elements(state, text, &chosen->target); return 0;
+    case KEY_POINTS: parse_points(state, text, &chosen->target); return 0;
     case KEY_R: chosen->R = parse_number(state, "--R", text); return 0;
     case KEY_C: chosen->c = parse_number(state, "--c", text); return 0;
     case KEY_SIGN: chosen->compression_positive = true; return 0;
@@ -62,6 +170,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       if (chosen->corrected && chosen->contacts.has_tensor)
         argp_error(state, "--corrected needs the number of contacts; the fabric tensor of --N has none");
       uncertainty_check(state, &chosen->contacts, &chosen->uncertainty);
+      check(state, chosen);
       return 0;
     default: return ARGP_ERR_UNKNOWN;
   }
@@ -87,10 +196,10 @@ static int print_as_json(const choices *chosen, const hypofab_fabric *fabric, co
   double delta[6];
   signed_delta(chosen, map, delta);
   json_t *object = fabric_to_json(fabric);
-  json_t *more =
-      json_pack("{s:f, s:f, s:b, s:f, s:o, s:o, s:s}", "R", chosen->R, "c", chosen->c, "corrected", chosen->corrected,
-                "weight", map->weight, "weighted_fabric", numbers_to_json(map->weighted_fabric, 6), "delta",
-                numbers_to_json(delta, 6), "sign", sign_name(chosen));
+  json_t *more = json_pack("{s:f, s:f, s:s, s:b, s:f, s:o, s:o, s:s}", "R", chosen->R, "c", chosen->c,
+                           "weight_function", chosen->weight, "corrected", chosen->corrected, "weight", map->weight,
+                           "weighted_fabric", numbers_to_json(map->weighted_fabric, 6), "delta",
+                           numbers_to_json(delta, 6), "sign", sign_name(chosen));
   if (json_object_update(object, more)) {
     json_decref(object);
     object = NULL;
@@ -107,7 +216,7 @@ static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, c
   print_fabric(fabric);
   uncertainty_print(found, fabric, true);
   if (chosen->corrected) printf("\nWithout noise (--corrected):\n");
-  printf("\nweight f(a), c = %-16g  %.6f\n\n", chosen->c, map->weight);
+  printf("\nweight f(a), %s, c = %-6g %.6f\n\n", chosen->weight, chosen->c, map->weight);
   print_tensor_head();
   print_tensor("A", map->weighted_fabric);
   print_tensor("delta", delta);
@@ -123,27 +232,39 @@ static int show(const choices *chosen, const hypofab_fabric *fabric, uncertainty
   hypofab_initial_delta map;
   hypofab_status status = uncertainty_intervals(found, chosen->R, chosen->c, chosen->corrected);
   if (!status && chosen->corrected) status = uncertainty_correct(found, fabric, &used);
-  if (!status) status = hypofab_fabric_to_delta(&used, chosen->R, chosen->c, &map);
+  if (!status) status = hypofab_fabric_to_delta_weighted(&used, chosen->R, chosen->c, chosen->weight, &map);
   if (status) return cli_exit(status);
+  if (chosen->format) {
+    delta_format_print(chosen->format, map.delta, &chosen->target);
+    return cli_finish_output();
+  }
   sign_intervals(chosen, found->intervals.delta);
   return chosen->json ? print_as_json(chosen, fabric, &map, found) : print_as_table(chosen, fabric, &map, found);
 }
 
 int cmd_delta(int argc, char **argv) {
-  static const struct argp_child children[] = {
-      {.argp = &contact_argp, .group = 1}, {.argp = &uncertainty_argp, .group = 2}, {0}};
+  static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1},
+                                               {.argp = &uncertainty_argp, .group = 2},
+                                               {.argp = &axes_argp, .group = 3},
+                                               {0}};
   static const struct argp parser = {.options = options,
                                      .parser = parse,
                                      .args_doc = "FILE...\n--N XX,YY,ZZ,XY,XZ,YZ",
                                      .doc = doc,
                                      .children = children};
-  choices chosen = {.contacts = {.several = true}, .uncertainty = uncertainty_defaults, .R = 1e-4, .c = 0.05};
+  choices chosen = {.contacts = {.several = true},
+                    .uncertainty = uncertainty_defaults,
+                    .R = 1e-4,
+                    .c = 0.05,
+                    .weight = hypofab_weight_name(0),
+                    .target = {.set = "SOIL", .first = 1, .last = 1, .points = 8}};
   argp_err_exit_status = CLI_BAD_INPUT;
   if (argp_parse(&parser, argc, argv, 0, NULL, &chosen)) return CLI_INTERNAL_ERROR;
 
   hypofab_fabric fabric;
   uncertainty found;
   hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
+  if (!status) status = axes_options_apply(&chosen.axes, &fabric);
   const int exit_code = status ? cli_exit(status) : show(&chosen, &fabric, &found);
   uncertainty_free(&found);
   return exit_code;

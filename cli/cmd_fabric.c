@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/axes_options.h"
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/report.h"
@@ -72,6 +73,7 @@ enum { KEY_JSON = 0x100 };
 typedef struct choices {
   contact_options contacts;
   uncertainty_options uncertainty;
+  axes_options axes;
   bool json;
 } choices;
 
@@ -101,9 +103,14 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     case ARGP_KEY_INIT:
       state->child_inputs[0] = &chosen->contacts;
       state->child_inputs[1] = &chosen->uncertainty;
+      state->child_inputs[2] = &chosen->axes;
       return 0;
     case KEY_JSON: chosen->json = true; return 0;
-    case ARGP_KEY_END: uncertainty_check(state, &chosen->contacts, &chosen->uncertainty); return 0;
+    case ARGP_KEY_END:
+      uncertainty_check(state, &chosen->contacts, &chosen->uncertainty);
+      if (chosen->uncertainty.replicates && chosen->axes.given)
+        argp_error(state, "--bootstrap knows the axes of the contacts only");
+      return 0;
     default: return ARGP_ERR_UNKNOWN;
   }
 }
@@ -121,8 +128,10 @@ static int show(const hypofab_fabric *fabric, const uncertainty *found) {
 }
 
 int cmd_fabric(int argc, char **argv) {
-  static const struct argp_child children[] = {
-      {.argp = &contact_argp, .group = 1}, {.argp = &uncertainty_argp, .group = 2}, {0}};
+  static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1},
+                                               {.argp = &uncertainty_argp, .group = 2},
+                                               {.argp = &axes_argp, .group = 3},
+                                               {0}};
   static const struct argp parser = {.options = options,
                                      .parser = parse,
                                      .args_doc = "FILE...\n--N XX,YY,ZZ,XY,XZ,YZ",
@@ -135,6 +144,7 @@ int cmd_fabric(int argc, char **argv) {
   hypofab_fabric fabric;
   uncertainty found;
   hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
+  if (!status) status = axes_options_apply(&chosen.axes, &fabric);
   /* Of delta nothing is shown: R and c are of no consequence. */
   if (!status) status = uncertainty_intervals(&found, 1.0, 1.0, false);
   const int exit_code = status ? cli_exit(status) : chosen.json ? show_json(&fabric, &found) : show(&fabric, &found);

@@ -5,6 +5,7 @@
 #include "cli/cmd_fabric.h"
 #include "cli/describe_report.h"
 #include "cli/report.h"
+#include "cli/uncertainty_options.h"
 
 static bool in_plane(const char *name) {
   for (; *name; name++)
@@ -102,6 +103,14 @@ static json_t *network(int dimension, const hypofab_network *n) {
                    matrix(dimension, n->stress));
 }
 
+/* The test against isotropy of `hypofab fabric`; its numbers are those of space. */
+static void add_significance(const hypofab_description *d, json_t *object) {
+  uncertainty found = {0};
+  found.has_significance =
+      d->dimension == 3 && hypofab_fabric_significance(&d->fabric, &found.significance) == HYPOFAB_OK;
+  uncertainty_to_json(&found, false, object);
+}
+
 json_t *description_to_json(const char *file, const hypofab_description *d) {
   const int dim = d->dimension;
   json_t *object = json_object();
@@ -132,5 +141,6 @@ json_t *description_to_json(const char *file, const hypofab_description *d) {
   }
   json_decref(fabric);
   json_decref(more);
+  add_significance(d, object);
   return object;
 }

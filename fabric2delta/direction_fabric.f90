@@ -22,7 +22,7 @@ contains
 
   !> Fabric tensors of summed directions.
   !> @param dimension 3, or 2 for the plane xy
-  !> @param moments   sums; when their total weight is not positive, everything but the count is NaN
+  !> @param moments   sums; when their total weight is not positive, the count is 0 and everything else NaN
   !> @param fabric    filled
   !> @return 0, or LAPACK's info when the eigenvalues could not be found
   function describe_directions(dimension, moments, fabric) result(info) bind(C, name='hypofab_describe_directions')
@@ -32,8 +32,9 @@ contains
     integer(c_int) :: info
 
     info = 0
-    fabric = nothing(moments)
+    fabric = nothing()
     if (.not. moments%total > 0.0_wp) return
+    fabric%count = nint(moments%directions, c_int64_t)
     fabric%total = moments%total
     fabric%first2 = moments%second / moments%total
     fabric%first4 = moments%fourth / moments%total
@@ -54,12 +55,12 @@ contains
     angle = 0.5_wp * atan2(2.0_wp * a(4), a(1) - a(2)) * 180.0_wp / acos(-1.0_wp)
   end function plane_angle
 
-  pure function nothing(moments) result(fabric)
-    type(moments_t), intent(in) :: moments
+  !> No directions.
+  pure function nothing() result(fabric)
     type(direction_fabric_t) :: fabric
     real(wp) :: nan
     nan = ieee_value(1.0_wp, ieee_quiet_nan)
-    fabric = direction_fabric_t(nint(moments%directions, c_int64_t), nan, nan, nan, nan, nan, nan, nan, nan, nan, &
+    fabric = direction_fabric_t(0_c_int64_t, nan, nan, nan, nan, nan, nan, nan, nan, nan, &
                                 nan, nan, nan)
   end function nothing
 

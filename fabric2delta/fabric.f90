@@ -10,7 +10,7 @@ module hypofab_fabric
   implicit none
   private
   public :: fabric_t, initial_delta_t
-  public :: add_normals, describe_fabric, count_coordination, map_to_delta, weight_of_anisotropy
+  public :: add_normals, describe_fabric, count_coordination, map_to_delta
   public :: find_principal, principal_axes
 
   real(wp), parameter :: unit_tensor(6) = [1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
@@ -111,18 +111,18 @@ contains
   end subroutine count_coordination
 
   !> Initial intergranular strain of a fabric: A = (1 - f) 1 + f F, delta = R A/|A| (paper Eq. 6).
-  !> @param fabric  its deviatoric fabric and anisotropy are used
+  !> @param fabric  its deviatoric fabric is used
   !> @param R       size of the elastic strain range [-], > 0
-  !> @param c       parameter of the weight [-], > 0
+  !> @param weight  f, from 0 to 1 (weight_function.c)
   !> @param map     filled: f, A, delta (tensor components, positive in extension). Where A = 0 (only possible when
   !>                tr N differs from 1) delta has no direction and is NaN.
-  pure subroutine map_to_delta(fabric, R, c, map) bind(C, name='hypofab_fabric_map_to_delta')
+  pure subroutine map_to_delta(fabric, R, weight, map) bind(C, name='hypofab_fabric_map_to_delta')
     type(fabric_t), intent(in) :: fabric
-    real(wp), value, intent(in) :: R, c
+    real(wp), value, intent(in) :: R, weight
     type(initial_delta_t), intent(out) :: map
     real(wp) :: norm
 
-    map%weight = weight_of_anisotropy(fabric%anisotropy, c)
+    map%weight = weight
     map%weighted_fabric = (1.0_wp - map%weight) * unit_tensor + map%weight * fabric%deviatoric_fabric
     norm = frobenius_norm(map%weighted_fabric)
     if (norm > 0.0_wp) then
@@ -131,15 +131,6 @@ contains
       map%delta = ieee_value(1.0_wp, ieee_quiet_nan)
     end if
   end subroutine map_to_delta
-
-  !> Weight of the deviatoric fabric, f(a) = 1 - exp(-a/c) (paper Eq. 7). The one place where it stands.
-  !> @param a  anisotropy [-], >= 0
-  !> @param c  parameter [-], > 0; 0.05 in the paper
-  pure real(wp) function weight_of_anisotropy(a, c) result(f)
-    real(wp), intent(in) :: a, c
-
-    f = 1.0_wp - exp(-a / c)
-  end function weight_of_anisotropy
 
   !> |x| = sqrt(x:x) of a symmetric tensor, each shear component counted twice.
   pure real(wp) function frobenius_norm(x) result(norm)

@@ -17,7 +17,7 @@ int hypofab_fabric_describe(const double tensor[6], hypofab_fabric *fabric);
 void hypofab_fabric_count_coordination(int64_t contacts, int64_t particles, int64_t none, int64_t one,
                                        hypofab_fabric *fabric);
 
-/** f, A and delta of a fabric; delta is NaN where A = 0. */
-void hypofab_fabric_map_to_delta(const hypofab_fabric *fabric, double R, double c, hypofab_initial_delta *map);
+/** A and delta of a fabric and its weight f; delta is NaN where A = 0. */
+void hypofab_fabric_map_to_delta(const hypofab_fabric *fabric, double R, double weight, hypofab_initial_delta *map);
 
 #endif

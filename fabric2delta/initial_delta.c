@@ -4,6 +4,7 @@
 
 #include "base/message.h"
 #include "fabric2delta/fabric.h"
+#include "fabric2delta/weight_function.h"
 
 /* A fabric tensor is often typed from a table: two decimals move the trace by at most 0.015, three decimals move an
  * eigenvalue by at most 0.0015. Beyond that it is not the mean of n (x) n of unit vectors. */
@@ -39,22 +40,30 @@ hypofab_status hypofab_fabric_from_tensor(const double N[6], hypofab_fabric *fab
   return HYPOFAB_OK;
 }
 
-hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c,
-                                       hypofab_initial_delta *result) {
+hypofab_status hypofab_fabric_to_delta_weighted(const hypofab_fabric *fabric, double R, double c, const char *weight,
+                                                hypofab_initial_delta *result) {
   if (!fabric || !result) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "initial delta: a NULL pointer was given");
   if (!positive(R))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "R is %g; expected the size of the elastic strain range, R > 0", R);
   if (!positive(c))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "c is %g; expected the parameter of f(a) = 1 - exp(-a/c), c > 0", c);
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "c is %g; expected the parameter of the weight function f(a), c > 0", c);
   bool usable = isfinite(fabric->anisotropy) && fabric->anisotropy >= 0.0;
   for (int i = 0; i < 6; i++) usable = usable && isfinite(fabric->deviatoric_fabric[i]);
   if (!usable) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "initial delta: the fabric holds numbers that are not finite");
 
+  double f;
+  hypofab_status status = weight_function_value(weight, fabric->anisotropy, c, &f);
+  if (status) return status;
   hypofab_initial_delta map;
-  hypofab_fabric_map_to_delta(fabric, R, c, &map);
+  hypofab_fabric_map_to_delta(fabric, R, f, &map);
   if (!isfinite(map.delta[0]))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
                         "initial delta: the weighted fabric tensor A vanishes; expected a fabric tensor of trace 1");
   *result = map;
   return HYPOFAB_OK;
+}
+
+hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c,
+                                       hypofab_initial_delta *result) {
+  return hypofab_fabric_to_delta_weighted(fabric, R, c, NULL, result);
 }

@@ -782,7 +782,7 @@ hypofab_status hypofab_fabric_from_tensor(const double N[6], hypofab_fabric *fab
 
 /** Initial intergranular strain of a fabric (paper 000, Eqs. 6 and 7). */
 typedef struct hypofab_initial_delta {
-  double weight;             /**< f(a) = 1 - exp(-a/c) */
+  double weight;             /**< f(a), 1 - exp(-a/c) unless another weight function was chosen */
   double weighted_fabric[6]; /**< A = (1 - f) 1 + f F */
   double delta[6];           /**< R A/|A| */
 } hypofab_initial_delta;
@@ -793,6 +793,27 @@ typedef struct hypofab_initial_delta {
  * @param c  parameter of the weight function, > 0 (0.05 in paper 000)
  */
 hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c, hypofab_initial_delta *result);
+
+/** Name of weight function number index (0-based), "exponential" first; NULL past the last one. */
+const char *hypofab_weight_name(int index);
+
+/** Its formula, e.g. "1 - exp(-a/c)"; NULL past the last one. */
+const char *hypofab_weight_formula(int index);
+
+/**
+ * @brief Map a fabric to the initial intergranular strain with a chosen weight function.
+ * @param weight its name; NULL: "exponential", that of paper 000. All have f(0) = 0, the slope 1/c there, and the
+ * limit 1.
+ */
+hypofab_status hypofab_fabric_to_delta_weighted(const hypofab_fabric *fabric, double R, double c, const char *weight,
+                                                hypofab_initial_delta *result);
+
+/**
+ * @brief A fabric in other axes: F, principal directions and all that follows from it turn along, counts stay.
+ * @param rotation row i is the new axis i in the old axes; orthonormal within 1e-6 (a mirror image is allowed)
+ * @param turned   filled; may be `fabric`
+ */
+hypofab_status hypofab_fabric_rotate(const hypofab_fabric *fabric, const double rotation[3][3], hypofab_fabric *turned);
 
 /* ----------------------------------------------------------- fabric change */
 

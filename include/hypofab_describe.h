@@ -14,13 +14,13 @@
 #endif
 
 /** What contacts are counted by. */
-typedef enum hypofab_weight {
+typedef enum hypofab_contact_weight {
   HYPOFAB_BY_NUMBER = 0,        /**< each by one */
   HYPOFAB_BY_NORMAL_FORCE = 1,  /**< by f_n */
   HYPOFAB_BY_AREA = 2,          /**< by the contact's area */
   HYPOFAB_BY_BRANCH_LENGTH = 3, /**< by |branch| */
   HYPOFAB_N_WEIGHTS = 4
-} hypofab_weight;
+} hypofab_contact_weight;
 
 /** Harmonics of even degree 0, 2, 4, 6, 8: the number of degrees, and of harmonics on the sphere (circle: 9). */
 #define HYPOFAB_N_DEGREES 5

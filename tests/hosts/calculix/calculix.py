@@ -42,10 +42,19 @@ def start_of(model: str) -> Start:
     return Start(props, data("INITIAL CONDITIONS,TYPE=STRESS", 1)[2:], delta, props[15])
 
 
-def run(deck: str, folder: Path) -> Run:
-    """Run a deck (its name without .inp) of examples/fe/calculix or of this folder, in a copy of the former."""
+def run(deck: str, folder: Path, solution: str | None = None) -> Run:
+    """Run a deck (its name without .inp) of examples/fe/calculix or of this folder, in a copy of the former.
+
+    solution: lines in place of those of sand_cube.inp that give the state variables at the start.
+    """
     work = folder / "calculix"
     shutil.copytree(EXAMPLES, work)
+    if solution is not None:
+        model = work / "sand_cube.inp"
+        lines = r"(?:\*INITIAL CONDITIONS,TYPE=SOLUTION\n.*\n)+"
+        text, count = re.subn(lines, lambda _: solution, model.read_text())
+        assert count == 1
+        model.write_text(text)
     for extra in Path(__file__).parent.glob("*.inp"):
         shutil.copy(extra, work)
     (work / "libHYPOFAB.so").symlink_to(BUILD / "umat" / "libhypofab_umat.so")

@@ -4,6 +4,8 @@ CalculiX writes seven digits. What the driver repeats is a strain path whose inc
 5e-10 in a strain near 5e-3, which a stiffness of 2e5 kPa turns into 1e-4 kPa, that is 1e-6 of the stress.
 """
 
+import json
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +56,19 @@ def test_undrained_triaxial_with_pore_water_in_the_umat(tmp_path: Path) -> None:
     # The water gives way a little: u/K_w.
     steps = preset("undrained_triaxial_compression", "undrained_triaxial_extension")
     assert difference_from(steps, result, start, tmp_path) < 3e-2
+
+
+def test_lines_of_hypofab_delta(tmp_path: Path) -> None:
+    """What `hypofab delta --format calculix` prints is read as the memory of the sample, shear included."""
+    fabric = ["delta", "--N", ".318,.362,.320,.003,-.002,.004", "--R", "1e-4", "--axes", "x,z,-y"]
+    lines, plain = (
+        subprocess.run([PROGRAM, *fabric, *form], check=True, capture_output=True, text=True).stdout
+        for form in (["--format", "calculix", "--points", "8"], ["--json"])
+    )
+    result, start = run("general_shear", tmp_path, lines), start_of("sand_cube.inp")
+    start.delta = np.array(json.loads(plain)["delta"])
+    assert np.abs(start.delta[3:]).min() > 1e-6
+    compare(result, start, tmp_path)
 
 
 def test_oedometer(tmp_path: Path) -> None:

@@ -1,10 +1,13 @@
 """One element in Kratos GeoMechanics against the element test driver."""
 
+import json
+import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from kratos import PROGRAM, Run, run, start_of
+from kratos import EXAMPLES, PROGRAM, Run, run, start_of
 from replay import Start, differences_from_path, differences_on_host_strain, preset, straight
 
 TOLERANCE = 1e-6
@@ -66,6 +69,20 @@ def test_constant_volume_triaxial(tmp_path: Path) -> None:
     result, start = host("constant_volume_triaxial.json", tmp_path), start_of("constant_volume_triaxial.json")
     compare(result, start, tmp_path)
     assert difference_from(straight(-0.5), result, start, tmp_path) < TOLERANCE
+
+
+def test_lines_of_hypofab_delta(tmp_path: Path) -> None:
+    """What `hypofab delta --format kratos` prints is read as the memory of the sample, shear included."""
+    fabric = ["delta", "--N", ".318,.362,.320,.003,-.002,.004", "--R", "1e-4", "--axes", "x,z,-y"]
+    line, plain = (
+        subprocess.run([PROGRAM, *fabric, *form], check=True, capture_output=True, text=True).stdout
+        for form in (["--format", "kratos", "--void-ratio", "0.62"], ["--json"])
+    )
+    old = re.search(r'"STATE_VARIABLES": \[.*\]', (EXAMPLES / "sand.json").read_text()).group()
+    result = host("drained_triaxial.json", tmp_path, [("sand.json", old, line.strip())])
+    start = start_of("drained_triaxial.json")
+    start.delta, start.void_ratio = np.array(json.loads(plain)["delta"]), 0.62
+    compare(result, start, tmp_path)
 
 
 def test_oedometer(tmp_path: Path) -> None:
