@@ -31,6 +31,9 @@ int cmd_materials(int argc, char **argv);
 /** Stability of the states of a deck, or of one given by options. */
 int cmd_stability(int argc, char **argv);
 
+/** List the presets of element tests. */
+int cmd_presets(int argc, char **argv);
+
 /** Check a deck without running it. */
 int cmd_check(int argc, char **argv);
 

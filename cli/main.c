@@ -17,6 +17,7 @@ static const struct command {
     {"stability", cmd_stability, "stability of a state: second-order work, localisation, bound surface"},
     {"check", cmd_check, "validate a deck and say what it would run"},
     {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
+    {"presets", cmd_presets, "list the presets of element tests and their parameters"},
     {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},
     {"changes", cmd_changes, "contacts lost, gained and turned between snapshots, and the fabric they change"},
     {"describe", cmd_describe, "everything that the contacts of one sample, or of a series, tell of fabric and forces"},

@@ -13,17 +13,6 @@
 static const char *const expected_source =
     "expected one of zero: true, components: [6], mobilised: [6], fabric: [6], contacts: FILE";
 
-/* A path in a deck is relative to the deck's folder. The caller frees it; NULL when memory is short. */
-static char *path_beside(const char *deck_path, const char *path) {
-  const char *slash = path[0] == '/' ? NULL : strrchr(deck_path, '/');
-  const size_t folder = slash ? (size_t)(slash - deck_path) + 1 : 0;
-  char *joined = malloc(folder + strlen(path) + 1);
-  if (!joined) return NULL;
-  memcpy(joined, deck_path, folder);
-  strcpy(joined + folder, path);
-  return joined;
-}
-
 /* Intergranular strain of size R along a direction. */
 static hypofab_status mobilise(const hypofab_study *study, const deck_source *source, deck_key key,
                                const double direction[6], double R, double delta[6]) {
@@ -39,7 +28,7 @@ static hypofab_status mobilise(const hypofab_study *study, const deck_source *so
 static hypofab_status read_particles(const deck_source *source, deck_key key, const char *text,
                                      hypofab_contact_format *format, char **path) {
   if (strspn(text, "0123456789") != strlen(text)) {
-    *path = path_beside(source->path, text);
+    *path = deck_path_beside(source, text);
     if (!*path) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
     format->particle_file = *path;
     return HYPOFAB_OK;
@@ -67,7 +56,7 @@ static hypofab_status read_contacts(const deck_source *source, unsigned index, c
                          "'%s', expected \",\", \";\" or \"\\t\"", given->separator);
     format.separator = given->separator[0];
   }
-  char *particle_file = NULL, *contact_file = path_beside(source->path, given->contacts);
+  char *particle_file = NULL, *contact_file = deck_path_beside(source, given->contacts);
   hypofab_status status = HYPOFAB_OK;
   if (!contact_file)
     status = hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);

@@ -22,26 +22,33 @@ static void write_header(int columns, FILE *stream) {
     fprintf(stream, "%s%s", i ? "," : "", hypofab_quantity_name(i));
     if (i == HYPOFAB_TIME) fputs(",step", stream);
   }
-  fputc('\n', stream);
+  fputs(",event\n", stream);
 }
 
 static void write_row(const hypofab_study *study, int columns, const hypofab_row *row, FILE *stream) {
-  char line[(HYPOFAB_N_QUANTITIES + 2) * OUTPUT_NUMBER_SIZE];
+  char line[(HYPOFAB_N_QUANTITIES + 3) * OUTPUT_NUMBER_SIZE];
   int used = output_number(line, ' ', row->value[HYPOFAB_TIME]);
   used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d", row->step + 1);
   for (int i = HYPOFAB_TIME + 1; i < columns; ++i)
     used += output_number(line + used, ',', study_quantity_sign(study, i) * row->value[i]);
-  line[used++] = '\n';
+  used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d\n", row->event);
   fwrite(line + 1, 1, (size_t)used - 1, stream); /* without the blank in front */
 }
 
-/* How far the study is, by the distance the current step still has to its end. */
+/* How far a step is: by its cycles, or by the distance that its quantity still has to its end. */
+static double fraction_of_step(const hypofab_step *step, const hypofab_row *before, const hypofab_row *row) {
+  if (step->cycle.count > 0) return row->value[HYPOFAB_CYCLE] / (double)step->cycle.count;
+  hypofab_mark end = step->until;
+  const double start = before->value[end.quantity];
+  if (step->history.n > 0) end.value = start + step->history.time[step->history.n - 1] - step->history.time[0];
+  return (row->value[end.quantity] - start) / (end.value - start);
+}
+
+/* How far the study is. */
 static double fraction_done(const run *run, const hypofab_row *row) {
   const study_test *test = &run->study->tests[run->index];
-  const hypofab_mark until = test->steps[row->step].until;
   const hypofab_row *before = row->step > 0 ? &run->result->ends[row->step - 1] : &run->result->start;
-  const double start = before->value[until.quantity];
-  double fraction = (row->value[until.quantity] - start) / (until.value - start);
+  double fraction = fraction_of_step(&test->steps[row->step], before, row);
   fraction = isfinite(fraction) ? fmin(fmax(fraction, 0), 1) : 0;
   return (run->index + (row->step + fraction) / test->n_steps) / run->study->deck->tests_count;
 }

@@ -21,6 +21,11 @@ static const cyaml_strval_t integrator_names[] = {{"erk", HYPOFAB_ERK}, {"cvode"
 static const cyaml_strval_t frame_names[] = {
     {"xyz", DECK_FRAME_XYZ}, {"stress", DECK_FRAME_STRESS}, {"delta", DECK_FRAME_DELTA}};
 static const cyaml_strval_t imposed_names[] = {{"strain", HYPOFAB_IMPOSE_STRAIN}, {"stress", HYPOFAB_IMPOSE_STRESS}};
+static const cyaml_strval_t drive_names[] = {{"strain", 0}, {"stress", 1}};
+static const cyaml_strval_t keep_names[] = {
+    {"all", HYPOFAB_KEEP_ALL}, {"reversals", HYPOFAB_KEEP_REVERSALS}, {"end", HYPOFAB_KEEP_END}};
+static const cyaml_strval_t measure_names[] = {
+    {"level", HYPOFAB_LEVEL}, {"change", HYPOFAB_CHANGE}, {"double_amplitude", HYPOFAB_DOUBLE_AMPLITUDE}};
 static const cyaml_strval_t axis_names[] = {{"x", 0}, {"y", 1}, {"z", 2}};
 /* libcyaml's own booleans take any text but "false", "no" and "0" for true. */
 static const cyaml_strval_t boolean_names[] = {{"false", 0}, {"true", 1}};
@@ -83,13 +88,67 @@ static const cyaml_schema_field_t control_fields[] = {COMPONENT(0, "xx", CYAML_F
                                                       COMPONENT(5, "yz", OPTIONAL_POINTER),
                                                       CYAML_FIELD_END};
 
+static const cyaml_schema_field_t condition_fields[] = {
+    OPTIONAL_TEXT("quantity", deck_condition, quantity), SIX_NUMBERS("stress", deck_condition, stress),
+    SIX_NUMBERS("strain", deck_condition, strain), CYAML_FIELD_FLOAT_PTR("rate", OPTIONAL, deck_condition, rate),
+    CYAML_FIELD_END};
+static const cyaml_schema_value_t condition_value = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_condition, condition_fields)};
+
+static const cyaml_schema_value_t quantity_name = {CYAML_VALUE_STRING(CYAML_FLAG_POINTER, char, 1, CYAML_UNLIMITED)};
+static const cyaml_schema_field_t table_fields[] = {
+    TEXT("file", deck_table, file),
+    CYAML_FIELD_SEQUENCE("columns", OPTIONAL_POINTER, deck_table, columns, &quantity_name, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("hold", OPTIONAL_POINTER, deck_table, hold, &quantity_name, 0, CYAML_UNLIMITED),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t water_fields[] = {CYAML_FIELD_FLOAT_PTR("K_w", OPTIONAL, deck_water, K_w),
+                                                    CYAML_FIELD_FLOAT_PTR("porosity", OPTIONAL, deck_water, porosity),
+                                                    CYAML_FIELD_END};
+
+#define TWO_NUMBERS(key, structure, member) \
+  CYAML_FIELD_SEQUENCE_FIXED(key, OPTIONAL_POINTER, structure, member, &number, 2)
+static const cyaml_schema_field_t cycle_fields[] = {TEXT("quantity", deck_cycle, quantity),
+                                                    CYAML_FIELD_FLOAT_PTR("amplitude", OPTIONAL, deck_cycle, amplitude),
+                                                    TWO_NUMBERS("between", deck_cycle, between),
+                                                    TWO_NUMBERS("from_start", deck_cycle, from_start),
+                                                    CYAML_FIELD_UINT_PTR("count", OPTIONAL, deck_cycle, count),
+                                                    CHOICE("keep", deck_cycle, keep, keep_names),
+                                                    CYAML_FIELD_UINT_PTR("every", OPTIONAL, deck_cycle, every),
+                                                    CYAML_FIELD_END};
+
+static const cyaml_schema_field_t stop_fields[] = {
+    TEXT("quantity", deck_stop, quantity), CYAML_FIELD_FLOAT("value", CYAML_FLAG_DEFAULT, deck_stop, value),
+    CHOICE("measure", deck_stop, measure, measure_names), CYAML_FIELD_END};
+static const cyaml_schema_value_t stop_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_stop, stop_fields)};
+
+const char *const deck_preset_keys[DECK_N_PRESET_NUMBERS] = {"rate",   "lode",   "b",      "alpha",     "stiffness",
+                                                             "p_rate", "q_rate", "b_rate", "alpha_rate"};
+#define PRESET_NUMBER(index, name) CYAML_FIELD_FLOAT_PTR(name, OPTIONAL, deck_step, number[index])
+
 static const cyaml_schema_field_t step_fields[] = {
     OPTIONAL_TEXT("name", deck_step, name),
     OPTIONAL_TEXT("preset", deck_step, preset),
     CHOICE("axis", deck_step, axis, axis_names),
-    CYAML_FIELD_FLOAT_PTR("rate", OPTIONAL, deck_step, rate),
+    CHOICE("normal", deck_step, normal, axis_names),
+    CHOICE("drive", deck_step, drive, drive_names),
+    PRESET_NUMBER(0, "rate"),
+    PRESET_NUMBER(1, "lode"),
+    PRESET_NUMBER(2, "b"),
+    PRESET_NUMBER(3, "alpha"),
+    PRESET_NUMBER(4, "stiffness"),
+    PRESET_NUMBER(5, "p_rate"),
+    PRESET_NUMBER(6, "q_rate"),
+    PRESET_NUMBER(7, "b_rate"),
+    PRESET_NUMBER(8, "alpha_rate"),
+    SIX_NUMBERS("direction", deck_step, direction),
     CYAML_FIELD_MAPPING_PTR("control", OPTIONAL_POINTER, deck_step, control, control_fields),
-    CYAML_FIELD_MAPPING("until", CYAML_FLAG_DEFAULT, deck_step, until, mark_fields),
+    CYAML_FIELD_SEQUENCE("conditions", OPTIONAL_POINTER, deck_step, conditions, &condition_value, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_MAPPING_PTR("table", OPTIONAL_POINTER, deck_step, table, table_fields),
+    CYAML_FIELD_MAPPING_PTR("pore_water", OPTIONAL_POINTER, deck_step, pore_water, water_fields),
+    CYAML_FIELD_MAPPING_PTR("until", OPTIONAL_POINTER, deck_step, until, mark_fields),
+    CYAML_FIELD_SEQUENCE("stop", OPTIONAL_POINTER, deck_step, stop, &stop_value, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_MAPPING_PTR("cycle", OPTIONAL_POINTER, deck_step, cycle, cycle_fields),
     CYAML_FIELD_UINT_PTR("rows", OPTIONAL, deck_step, rows),
     CYAML_FIELD_MAPPING_PTR("every", OPTIONAL_POINTER, deck_step, every, mark_fields),
     CYAML_FIELD_FLOAT_PTR("max_time", OPTIONAL, deck_step, max_time),

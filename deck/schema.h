@@ -73,17 +73,74 @@ typedef struct deck_control {
   deck_component *component[6];
 } deck_control;
 
+/** One of the six conditions: a quantity, or coefficients on stress rate and strain rate. */
+typedef struct deck_condition {
+  char *quantity;
+  double *stress;
+  double *strain;
+  double *rate;
+} deck_condition;
+
+/** A history of prescribed quantities from a file. */
+typedef struct deck_table {
+  char *file;
+  char **columns; /**< those to use; all without it */
+  unsigned columns_count;
+  char **hold; /**< quantities that stay as they are */
+  unsigned hold_count;
+} deck_table;
+
+/** Water in the pores of a step that is drained without it. */
+typedef struct deck_water {
+  double *K_w;
+  double *porosity;
+} deck_water;
+
+/** Cycles of a quantity: exactly one of amplitude, between and from_start. */
+typedef struct deck_cycle {
+  char *quantity;
+  double *amplitude;
+  double *between;
+  double *from_start;
+  unsigned *count;
+  int *keep;
+  unsigned *every;
+} deck_cycle;
+
+/** What ends a step besides its until. */
+typedef struct deck_stop {
+  char *quantity;
+  double value;
+  int *measure;
+} deck_stop;
+
+/** Parameters of presets by name, in the order of deck_preset_keys. */
+enum { DECK_N_PRESET_NUMBERS = 9 };
+
 typedef struct deck_step {
   char *name;
   char *preset;
   int *axis;
-  double *rate;
+  int *normal;
+  int *drive;
+  double *number[DECK_N_PRESET_NUMBERS]; /**< keys: deck_preset_keys */
+  double *direction;
   deck_control *control;
-  deck_mark until;
+  deck_condition *conditions;
+  unsigned conditions_count;
+  deck_table *table;
+  deck_water *pore_water;
+  deck_mark *until;
+  deck_stop *stop;
+  unsigned stop_count;
+  deck_cycle *cycle;
   unsigned *rows;
   deck_mark *every;
   double *max_time;
 } deck_step;
+
+/** Keys of deck_step.number: rate, lode, b, ... */
+extern const char *const deck_preset_keys[DECK_N_PRESET_NUMBERS];
 
 typedef struct deck_test {
   char *name;

@@ -101,6 +101,16 @@ void deck_source_close(deck_source *source) {
   free(source->text);
 }
 
+char *deck_path_beside(const deck_source *source, const char *path) {
+  const char *slash = path[0] == '/' ? NULL : strrchr(source->path, '/');
+  const size_t folder = slash ? (size_t)(slash - source->path) + 1 : 0;
+  char *joined = malloc(folder + strlen(path) + 1);
+  if (!joined) return NULL;
+  memcpy(joined, source->path, folder);
+  strcpy(joined + folder, path);
+  return joined;
+}
+
 /* The pair of a mapping whose key is the first `length` characters of `name`, or NULL. */
 static const yaml_node_pair_t *find_pair(yaml_document_t *document, const yaml_node_t *node, const char *name,
                                          size_t length) {

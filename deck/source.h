@@ -39,6 +39,9 @@ hypofab_status deck_source_open(const char *path, deck_source *source);
 /** Free what deck_source_open filled. */
 void deck_source_close(deck_source *source);
 
+/** A path in a deck is relative to the deck's folder. The caller frees it; NULL when memory is short. */
+char *deck_path_beside(const deck_source *source, const char *path);
+
 /** Line (from 1) of a key, or of the nearest mapping or sequence around it when the deck does not give it. */
 size_t deck_line(const deck_source *source, const char *key);
 

@@ -80,9 +80,18 @@ hypofab_status hypofab_study_load(const char *path, hypofab_study **study) {
   return status;
 }
 
+static void free_test(study_test *test) {
+  for (unsigned i = 0; test->histories && i < test->n_steps; ++i) {
+    free(test->histories[i].time);
+    free(test->histories[i].value);
+  }
+  free(test->histories);
+  free(test->steps);
+}
+
 void hypofab_study_free(hypofab_study *study) {
   if (!study) return;
-  for (unsigned i = 0; study->tests && i < study->deck->tests_count; ++i) free(study->tests[i].steps);
+  for (unsigned i = 0; study->tests && i < study->deck->tests_count; ++i) free_test(&study->tests[i]);
   for (unsigned i = 0; study->envelopes && i < study->deck->envelopes_count; ++i) free(study->envelopes[i].series);
   free(study->tests);
   free(study->envelopes);

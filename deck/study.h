@@ -21,11 +21,19 @@ typedef struct study_state {
   double c; /**< parameter of the weight function */
 } study_state;
 
+/** Numbers of a table, which hypofab_step.history points to. */
+typedef struct study_history {
+  int n;
+  double *time;
+  double (*value)[6];
+} study_history;
+
 /** A test; its steps run from states[state]. */
 typedef struct study_test {
   unsigned state;
   hypofab_test_options options;
   hypofab_step *steps;
+  study_history *histories; /**< one per step, empty without a table */
   unsigned n_steps;
 } study_test;
 
@@ -103,9 +111,8 @@ bool study_is_plain_name(const char *text);
 /** Intergranular strain of state number index, by whichever of its five sources the deck names. */
 hypofab_status study_resolve_delta(hypofab_study *study, const deck_source *source, unsigned index);
 
-/** Six conditions, end and row spacing of a step; test and index are for messages. */
-hypofab_status study_resolve_step(const hypofab_study *study, const deck_source *source, unsigned test, unsigned index,
-                                  hypofab_step *step);
+/** Step number index of test number test: six conditions, end, cycles, stops and row spacing. */
+hypofab_status study_resolve_step(hypofab_study *study, const deck_source *source, unsigned test, unsigned index);
 
 /** Refuse a step whose end its own conditions keep out of reach, as far as that shows without integrating. */
 hypofab_status study_check_reach(const hypofab_study *study, const deck_source *source, unsigned test);

@@ -25,16 +25,45 @@ static double secant_stiffness(const hypofab_row *start, const hypofab_row *end)
   return (end->value[HYPOFAB_Q] - start->value[HYPOFAB_Q]) / (end->value[HYPOFAB_EPS_Q] - start->value[HYPOFAB_EPS_Q]);
 }
 
+/* Why a step ended. */
+static const char *ended_by(const hypofab_step *step, const hypofab_row *end) {
+  if (end->event == HYPOFAB_EVENT_STOP) return "stop";
+  if (end->event != HYPOFAB_EVENT_END) return NULL;
+  return step->cycle.count > 0 ? "cycles" : step->history.n > 0 ? "table" : "until";
+}
+
+/* The stop that ended a step, as the deck has it. */
+static json_t *stop_object(const hypofab_study *study, const deck_step *given, const hypofab_step *step,
+                           const hypofab_row *end) {
+  if (end->event != HYPOFAB_EVENT_STOP) return json_null();
+  static const char *const measures[] = {"level", "change", "double_amplitude"};
+  const hypofab_stop *stop = &step->stops[end->stop];
+  json_t *object = json_object();
+  json_object_set_new(object, "number", json_integer(end->stop + 1));
+  json_object_set_new(object, "quantity", json_string(given->stop[end->stop].quantity));
+  json_object_set_new(object, "measure", json_string(measures[stop->measure]));
+  json_object_set_new(object, "value", json_number(given->stop[end->stop].value));
+  json_object_set_new(object, "reached",
+                      json_number(study_quantity_sign(study, stop->mark.quantity) * end->value[stop->mark.quantity]));
+  return object;
+}
+
 static json_t *steps_array(const hypofab_study *study, unsigned test, const study_result *result) {
   json_t *array = json_array();
   for (unsigned i = 0; i < result->steps_begun; ++i) {
-    const char *name = study->deck->tests[test].steps[i].name;
+    const deck_step *given = &study->deck->tests[test].steps[i];
+    const hypofab_step *run = &study->tests[test].steps[i];
+    const hypofab_row *end = &result->ends[i];
+    const char *name = given->name, *why = ended_by(run, end);
     const bool reached = result->status == HYPOFAB_OK || i < result->stopped_in;
     json_t *step = json_object();
     json_object_set_new(step, "name", name ? json_string(name) : json_null());
     json_object_set_new(step, "reached", json_boolean(reached));
-    json_object_set_new(step, "end", row_object(study, test, &result->ends[i]));
-    json_object_set_new(step, "secant_stiffness", json_number(secant_stiffness(&result->start, &result->ends[i])));
+    json_object_set_new(step, "ended_by", why ? json_string(why) : json_null());
+    json_object_set_new(step, "stop", stop_object(study, given, run, end));
+    if (run->cycle.count > 0) json_object_set_new(step, "cycles", json_number(end->value[HYPOFAB_CYCLE]));
+    json_object_set_new(step, "end", row_object(study, test, end));
+    json_object_set_new(step, "secant_stiffness", json_number(secant_stiffness(&result->start, end)));
     json_array_append_new(array, step);
   }
   return array;

@@ -11,6 +11,18 @@ static int stop_at_once(const hypofab_row *row, void *user) {
   return 1;
 }
 
+/* Steps before the first one with an axis are seen in its frame, so that a column means the same all the way. Not those
+ * whose conditions are in a frame already. */
+static void complete_frames(const deck_test *given, study_test *test) {
+  for (unsigned i = test->n_steps - 1; i-- > 0;) {
+    hypofab_step *step = &test->steps[i];
+    if (step->axis == step->normal && given->steps[i].preset) {
+      step->axis = test->steps[i + 1].axis;
+      step->normal = test->steps[i + 1].normal;
+    }
+  }
+}
+
 static hypofab_status resolve_test(hypofab_study *study, const deck_source *source, unsigned index) {
   const deck *deck = study->deck;
   const deck_test *given = &deck->tests[index];
@@ -28,11 +40,13 @@ static hypofab_status resolve_test(hypofab_study *study, const deck_source *sour
 
   test->n_steps = given->steps_count;
   test->steps = calloc(test->n_steps, sizeof *test->steps);
-  if (!test->steps) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
+  test->histories = calloc(test->n_steps, sizeof *test->histories);
+  if (!test->steps || !test->histories) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
   for (unsigned i = 0; i < test->n_steps; ++i) {
-    hypofab_status status = study_resolve_step(study, source, index, i, &test->steps[i]);
+    hypofab_status status = study_resolve_step(study, source, index, i);
     if (status) return status;
   }
+  complete_frames(given, test);
   hypofab_status status = study_check_reach(study, source, index);
   if (status) return status;
 

@@ -98,20 +98,51 @@ static void bad_decks_are_refused_and_nothing_is_written(void **state) {
   }
 }
 
+static const char *const element_tests[] = {
+    EXAMPLE("undrained_triaxial.yaml"), EXAMPLE("triaxial_paths.yaml"),  EXAMPLE("biaxial.yaml"),
+    EXAMPLE("simple_shear.yaml"),       EXAMPLE("hollow_cylinder.yaml"), EXAMPLE("undrained_cyclic.yaml"),
+    EXAMPLE("general_control.yaml"),
+};
+
 static void every_example_passes_the_check(void **state) {
   (void)state;
-  const char *const examples[] = {EXAMPLE("directional_stiffness.yaml"), EXAMPLE("directional_stiffness_dem.yaml"),
-                                  EXAMPLE("response_envelopes.yaml"),    EXAMPLE("oedometer.yaml"),
-                                  EXAMPLE("undrained_triaxial.yaml"),    EXAMPLE("own_sand.yaml"),
-                                  EXAMPLE("strain_probes.yaml"),         EXAMPLE("stress_probes.yaml"),
+  const char *const examples[] = {EXAMPLE("directional_stiffness.yaml"),
+                                  EXAMPLE("directional_stiffness_dem.yaml"),
+                                  EXAMPLE("response_envelopes.yaml"),
+                                  EXAMPLE("oedometer.yaml"),
+                                  EXAMPLE("own_sand.yaml"),
+                                  EXAMPLE("strain_probes.yaml"),
+                                  EXAMPLE("stress_probes.yaml"),
                                   EXAMPLE("response_surfaces.yaml")};
-  for (size_t i = 0; i < sizeof examples / sizeof *examples; ++i) {
-    program_run run = program("check", examples[i], NULL);
+  const size_t n = sizeof examples / sizeof *examples, more = sizeof element_tests / sizeof *element_tests;
+  for (size_t i = 0; i < n + more; ++i) {
+    program_run run = program("check", i < n ? examples[i] : element_tests[i - n], NULL);
     expect(&run, 0, "is good\n", "");
     expect_silence(&run);
     run_free(&run);
   }
   assert_int_equal(scratch_count(scratch_path(".")), 2);
+}
+
+static void example_decks_of_element_tests_run_to_their_ends(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof element_tests / sizeof *element_tests; ++i) {
+    program_run run = program("run", element_tests[i], "-o", "results", NULL);
+    expect(&run, 0, "done; end: p = ", "");
+    expect_silence(&run);
+    run_free(&run);
+  }
+}
+
+static void presets_are_listed_with_their_parameters(void **state) {
+  (void)state;
+  program_run run = program("presets", NULL);
+  expect(&run, 0, "simple_shear_constant_stiffness\n", "");
+  expect(&run, 0, "    axis normal [rate] [drive] stiffness\n", "");
+  run_free(&run);
+  run = program("presets", "all", NULL);
+  expect(&run, 2, "", "expected no argument");
+  run_free(&run);
 }
 
 static void results_go_where_asked_or_beside_the_user(void **state) {
@@ -323,6 +354,8 @@ int main(void) {
       TEST(wrong_usage_has_exit_code_2),
       TEST(bad_decks_are_refused_and_nothing_is_written),
       TEST(every_example_passes_the_check),
+      TEST(example_decks_of_element_tests_run_to_their_ends),
+      TEST(presets_are_listed_with_their_parameters),
       TEST(results_go_where_asked_or_beside_the_user),
       TEST(a_place_that_cannot_be_written_has_exit_code_3),
       TEST(a_physical_stop_has_exit_code_1_and_says_so),

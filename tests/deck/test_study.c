@@ -244,10 +244,11 @@ static void rows_columns_and_summary_are_those_asked_for(void **state) {
   assert_int_equal(run_text(deck_in("kPa", 1, 1), scratch_path("a/b/out"), NULL, NULL), HYPOFAB_OK);
   assert_int_equal(scratch_count(scratch_path("a/b/out")), 3); /* two tests and the summary, no temporary file */
   table t = table_read(scratch_path("a/b/out/mixed.csv"));
-  assert_int_equal(t.columns, HYPOFAB_FIRST_STABILITY + 1);
+  assert_int_equal(t.columns, HYPOFAB_FIRST_STABILITY + 2);
   assert_string_equal(t.names[0], "time");
   assert_string_equal(t.names[1], "step");
   for (int i = 1; i < HYPOFAB_FIRST_STABILITY; ++i) assert_string_equal(t.names[i + 1], hypofab_quantity_name(i));
+  assert_string_equal(t.names[t.columns - 1], "event");
   assert_true(table_at(&t, 0, "step") == 1 && table_at(&t, 20, "step") == 1 && table_at(&t, 21, "step") == 2);
   assert_true(fabs(table_at(&t, 20, "eps_zz") + 0.002) < 1e-12);
   assert_true(fabs(table_at(&t, -1, "p") - 110) < 1e-9);
