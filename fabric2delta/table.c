@@ -1,89 +1,92 @@
-#define _GNU_SOURCE /* strtod_l */
+/* The header of a text table: names of columns, separator, width. */
 #include "fabric2delta/table.h"
 
+#include <csv.h>
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "fabric2delta/number.h"
 
 typedef void (*field_receiver)(void *text, size_t length, void *user);
+
+/* What the fields of a line are counted in. */
+typedef struct field_count {
+  table *data;
+  char separator;
+  int fields, numbers;
+} field_count;
 
 static hypofab_status out_of_memory(const table *data) {
   return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", data->input->path);
 }
 
 /* The separator of a line. Decimal commas are no numbers here, so a comma can only separate. */
-static char separator_of(const table *data, const char *text) {
-  if (data->separator) return data->separator;
-  return strchr(text, ',') ? ',' : strchr(text, ';') ? ';' : ' ';
-}
+static char separator_of(const char *text) { return strchr(text, ',') ? ',' : strchr(text, ';') ? ';' : ' '; }
 
-/* Hand the fields of one line to a receiver, which counts them in data->fields. Tabs of a blank-separated line become
- * blanks in place: libcsv knows one separator. */
-static hypofab_status split(table *data, char *text, field_receiver receive) {
-  data->between = separator_of(data, text);
-  if (data->between == ' ')
+/* Hand the fields of one line to a receiver. Tabs of a blank-separated line become blanks in place: libcsv knows one
+ * separator. */
+static hypofab_status split(field_count *count, char *text, field_receiver receive) {
+  struct csv_parser parser;
+  if (count->separator == ' ')
     for (char *tab = text; (tab = strchr(tab, '\t'));) *tab = ' ';
-  data->fields = data->numbers = 0;
-  csv_set_delim(&data->parser, (unsigned char)data->between);
+  if (csv_init(&parser, CSV_APPEND_NULL)) return out_of_memory(count->data);
+  csv_set_delim(&parser, (unsigned char)count->separator);
   size_t length = strlen(text);
-  if (csv_parse(&data->parser, text, length, receive, NULL, data) != length ||
-      csv_fini(&data->parser, receive, NULL, data))
-    return out_of_memory(data);
-  return HYPOFAB_OK;
+  bool failed = csv_parse(&parser, text, length, receive, NULL, count) != length ||
+                csv_fini(&parser, receive, NULL, count) != 0;
+  csv_free(&parser);
+  return failed ? out_of_memory(count->data) : HYPOFAB_OK;
 }
 
 /* Between blanks there is nothing; between commas there is an empty field. */
-static bool is_gap(const table *data, size_t length) { return length == 0 && data->between == ' '; }
-
-static bool parse_real(const table *data, const char *text, double *value) {
-  char *end;
-  *value = strtod_l(text, &end, data->c_locale);
-  return end != text && *end == '\0';
-}
+static bool is_gap(const field_count *count, size_t length) { return length == 0 && count->separator == ' '; }
 
 static void receive_first_row(void *text, size_t length, void *user) {
-  table *data = user;
+  field_count *count = user;
+  if (is_gap(count, length)) return;
   double value;
-  if (is_gap(data, length)) return;
-  data->fields++;
-  data->numbers += parse_real(data, text, &value);
+  const char *end = length ? number_read(text, &value) : NULL;
+  count->fields++;
+  count->numbers += end && *end == '\0';
+}
+
+static bool is_name_of(const table_request *asked, const char *text) {
+  if (!strcmp(text, asked->name)) return true;
+  for (int i = 0; i < TABLE_OTHER_NAMES && asked->other_names[i]; i++)
+    if (!strcmp(text, asked->other_names[i])) return true;
+  return false;
+}
+
+/* The spelling under which a request was found; the file's own text does not live long enough. */
+static const char *spelling(const table_request *asked, const char *text) {
+  for (int i = 0; i < TABLE_OTHER_NAMES && asked->other_names[i]; i++)
+    if (!strcmp(text, asked->other_names[i])) return asked->other_names[i];
+  return asked->name;
 }
 
 /* A name of the header: enters the columns that ask for it, a second match as the negative of the first. */
 static void receive_name(void *text, size_t length, void *user) {
-  table *data = user;
-  if (is_gap(data, length)) return;
-  data->fields++;
+  field_count *count = user;
+  table *data = count->data;
+  if (is_gap(count, length)) return;
+  count->fields++;
   for (int k = 0; k < data->n_requests; k++)
-    if (data->by_name[k] && !strcmp(text, data->requests[k].name))
-      data->column[k] = data->column[k] ? -abs(data->column[k]) : data->fields;
+    if (data->name[k] && is_name_of(&data->requests[k], text)) {
+      data->column[k] = data->column[k] ? -abs(data->column[k]) : count->fields;
+      data->name[k] = spelling(&data->requests[k], text);
+    }
   size_t used = strlen(data->names);
   snprintf(data->names + used, sizeof data->names - used, "%s%s", used ? ", " : "", (const char *)text);
 }
 
-static void receive_field(void *text, size_t length, void *user) {
-  table *data = user;
-  if (is_gap(data, length)) return;
-  data->fields++;
-  for (int k = 0; k < data->n_requests; k++)
-    if (data->column[k] == data->fields) {
-      size_t kept = length < TABLE_CELL ? length : TABLE_CELL - 1;
-      memcpy(data->cell[k], text, kept);
-      data->cell[k][kept] = '\0';
-      /* A field cut short must not pass for a number: the dots see to that. */
-      if (kept < length) memcpy(data->cell[k] + kept - 3, "...", 3);
-    }
-}
-
-/* A request made of digits alone is a column number; 0 when it is a name. */
+/* A request made of digits alone is a column number and has no name. */
 static hypofab_status column_number(table *data, int k) {
   const char *name = data->requests[k].name;
-  data->by_name[k] = name[0] == '\0' || name[strspn(name, "0123456789")] != '\0';
-  if (data->by_name[k]) return HYPOFAB_OK;
+  data->name[k] = name[0] == '\0' || name[strspn(name, "0123456789")] != '\0' ? name : NULL;
+  if (data->name[k]) return HYPOFAB_OK;
   errno = 0;
   long number = strtol(name, NULL, 10);
   if (errno || number < 1 || number > 1000000)
@@ -93,53 +96,84 @@ static hypofab_status column_number(table *data, int k) {
   return HYPOFAB_OK;
 }
 
-static bool has(const char *text, const char *beginning) { return !strncmp(text, beginning, strlen(beginning)); }
+static bool begins(const char *text, const char *beginning) { return !strncmp(text, beginning, strlen(beginning)); }
 
 /* VTK files hold contacts as cells and points, which a row-by-row reading would silently misread. */
 static hypofab_status refuse_foreign(const table *data) {
   const char *text = data->input->text;
-  if (!has(text, "# vtk DataFile") && !has(text, "<?xml") && !has(text, "<VTKFile")) return HYPOFAB_OK;
+  if (!begins(text, "# vtk DataFile") && !begins(text, "<?xml") && !begins(text, "<VTKFile")) return HYPOFAB_OK;
   return hypofab_fail(HYPOFAB_BAD_FILE, "%s:1: a VTK or XML file; expected a text table with one row per %s",
                       data->input->path, data->rows_are);
 }
 
-/* Read up to the first row that is not a comment, which stays the line at hand; keep the last comment. */
-static hypofab_status skip_comments(table *data, char **comment, bool *more) {
+bool table_skips(const char *line, const char *end) {
+  while (line < end && (*line == ' ' || *line == '\t' || *line == '\r')) line++;
+  return line == end || *line == '#';
+}
+
+/* Read up to the first row that is not a comment; keep the last comment. */
+static hypofab_status skip_comments(table *data, char **comment) {
   lines *input = data->input;
   for (;;) {
-    hypofab_status status = lines_next(input, more);
-    if (status || !*more) return status;
-    if (input->number == 1) {
-      if (has(input->text, "\xEF\xBB\xBF")) /* byte order mark of UTF-8 */
-        memmove(input->text, input->text + 3, input->length - 2);
-      if ((status = refuse_foreign(data))) return status;
-    }
+    bool more;
+    hypofab_status status = lines_next(input, &more);
+    if (status) return status;
+    if (!more)
+      return hypofab_fail(HYPOFAB_BAD_FILE, "%s: no rows of data; expected one row per %s", input->path,
+                          data->rows_are);
+    if (input->number == 1 && (status = refuse_foreign(data))) return status;
     const char *text = input->text + strspn(input->text, " \t");
+    if (*text != '\0' && *text != '#') return HYPOFAB_OK;
     if (*text == '\0') continue;
-    if (*text != '#') return HYPOFAB_OK;
     free(*comment);
     *comment = strdup(text + strspn(text, "# \t"));
     if (!*comment) return out_of_memory(data);
   }
 }
 
-/* Find the header, count its columns and enter those asked for by name. */
-static hypofab_status read_header(table *data, char **comment) {
-  bool more;
-  hypofab_status status = skip_comments(data, comment, &more);
-  if (status || !more) return status;
-  if ((status = split(data, data->input->text, receive_first_row))) return status;
+/* The separator and the number of columns of the first row, which is read again afterwards. */
+static hypofab_status look_at_row(table *data, char separator, field_count *row) {
+  lines *input = data->input;
+  *row = (field_count){.data = data, .separator = separator ? separator : separator_of(input->text)};
+  hypofab_status status = split(row, input->text, receive_first_row);
+  data->separator = row->separator;
+  data->width = row->fields;
+  return status;
+}
 
-  char *header = *comment;
-  if (data->numbers == 0)
-    header = data->input->text;
-  else
+/* Find the header, enter the columns asked for by name, and stop before the first row. */
+static hypofab_status read_header(table *data, const char *given, char separator, char **header) {
+  field_count row;
+  hypofab_status status = skip_comments(data, header);
+  if (!status) status = look_at_row(data, separator, &row);
+  if (status) return status;
+  if (given || row.numbers > 0) {
     lines_back(data->input);
-  if (!header) return HYPOFAB_OK;
-  if ((status = split(data, header, receive_name))) return status;
+  } else {
+    bool more;
+    lines_back(data->input);
+    if ((status = lines_next(data->input, &more))) return status; /* unaltered by the splitting */
+    free(*header);
+    *header = strdup(data->input->text);
+    if (!*header) return out_of_memory(data);
+    char *comment = NULL;
+    status = skip_comments(data, &comment);
+    free(comment);
+    if (!status) status = look_at_row(data, separator, &row);
+    if (status) return status;
+    lines_back(data->input);
+  }
+  if (given) {
+    free(*header);
+    *header = strdup(given);
+    if (!*header) return out_of_memory(data);
+  }
+  if (!*header) return HYPOFAB_OK;
+  field_count names = {.data = data, .separator = separator ? separator : separator_of(*header)};
+  if ((status = split(&names, *header, receive_name))) return status;
   for (int k = 0; k < data->n_requests; k++)
-    if (data->by_name[k] && data->column[k]) {
-      data->width = data->fields;
+    if (data->name[k] && data->column[k]) {
+      data->width = names.fields;
       data->width_of_header = true;
     }
   return HYPOFAB_OK;
@@ -151,7 +185,7 @@ static hypofab_status check_columns(const table *data) {
     const table_request *asked = &data->requests[k];
     if (data->column[k] < 0)
       return hypofab_fail(HYPOFAB_BAD_FILE, "%s: the column name '%s' stands twice in the header (%s)", path,
-                          asked->name, data->names);
+                          data->name[k], data->names);
     if (data->column[k] == 0 && asked->required && !data->names[0])
       return hypofab_fail(HYPOFAB_BAD_FILE,
                           "%s: no header names the columns; expected a row of names or a '#' line before the data "
@@ -160,6 +194,12 @@ static hypofab_status check_columns(const table *data) {
     if (data->column[k] == 0 && asked->required)
       return hypofab_fail(HYPOFAB_BAD_FILE, "%s: no column is named '%s'; the header names: %s", path, asked->name,
                           data->names);
+    if (data->column[k] > data->width)
+      return hypofab_fail(HYPOFAB_BAD_FILE,
+                          "%s:%lld: %d columns (separated by %s); expected at least %d, as %s was asked from column %d",
+                          path, (long long)data->input->number + 1, data->width,
+                          data->separator == ' ' ? "blanks" : "separators", data->column[k], asked->role,
+                          data->column[k]);
     for (int other = 0; other < k; other++)
       if (data->column[k] && data->column[k] == data->column[other])
         return hypofab_fail(HYPOFAB_BAD_FILE, "%s: %s and %s are both read from column %d; expected two columns", path,
@@ -168,102 +208,32 @@ static hypofab_status check_columns(const table *data) {
   return HYPOFAB_OK;
 }
 
-hypofab_status table_open(table *data, lines *input, char separator, const char *rows_are,
+static hypofab_status enter_requests(table *data) {
+  data->request_of = malloc((size_t)data->width + 1);
+  if (!data->request_of) return out_of_memory(data);
+  memset(data->request_of, -1, (size_t)data->width + 1);
+  for (int k = 0; k < data->n_requests; k++)
+    if (data->column[k]) data->request_of[data->column[k]] = (signed char)k;
+  return HYPOFAB_OK;
+}
+
+hypofab_status table_open(table *data, lines *input, const char *header, char separator, const char *rows_are,
                           const table_request *requests, int n_requests) {
-  *data = (table){
-      .input = input, .rows_are = rows_are, .requests = requests, .n_requests = n_requests, .separator = separator};
+  *data = (table){.input = input, .rows_are = rows_are, .requests = requests, .n_requests = n_requests};
   if (separator && !strchr(",;\t ", separator))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "separator '%c'; expected a comma, a semicolon, a tab or a blank",
                         separator);
   hypofab_status status = HYPOFAB_OK;
   for (int k = 0; k < n_requests; k++)
     if ((status = column_number(data, k))) return status;
-  if (csv_init(&data->parser, CSV_APPEND_NULL)) return out_of_memory(data);
-  data->c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  char *comment = NULL;
-  status = data->c_locale ? read_header(data, &comment) : out_of_memory(data);
-  free(comment);
-  /* A file without any row is refused by table_next, which says so. */
-  if (!status && (data->names[0] || data->fields)) status = check_columns(data);
-  if (status) table_close(data);
-  return status;
-}
-
-static const char *separator_name(char separator) {
-  return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
-}
-
-static hypofab_status check_width(table *data) {
-  const lines *input = data->input;
-  const char *between = separator_name(data->between);
-  if (!data->width) data->width = data->fields;
-  if (data->fields != data->width)
-    return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: %d columns (separated by %s); expected %d as in the %s",
-                        input->path, (long long)input->number, data->fields, between, data->width,
-                        data->width_of_header ? "header" : "first row");
-  for (int k = 0; k < data->n_requests; k++)
-    if (data->column[k] > data->fields)
-      return hypofab_fail(HYPOFAB_BAD_FILE,
-                          "%s:%lld: %d columns (separated by %s); expected at least %d, as %s was asked from column %d",
-                          input->path, (long long)input->number, data->fields, between, data->column[k],
-                          data->requests[k].role, data->column[k]);
-  return HYPOFAB_OK;
-}
-
-hypofab_status table_next(table *data, bool *more) {
-  lines *input = data->input;
-  const char *text;
-  do {
-    hypofab_status status = lines_next(input, more);
-    if (status) return status;
-    if (!*more && !data->rows)
-      return hypofab_fail(HYPOFAB_BAD_FILE, "%s: no rows of data; expected one row per %s", input->path,
-                          data->rows_are);
-    if (!*more) return HYPOFAB_OK;
-    text = input->text + strspn(input->text, " \t");
-  } while (*text == '\0' || *text == '#');
-  hypofab_status status = split(data, input->text, receive_field);
-  if (!status) status = check_width(data);
-  data->rows++;
-  return status;
-}
-
-hypofab_status table_refuse(const table *data, int k, const char *problem, const char *expected) {
-  const table_request *asked = &data->requests[k];
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: column %d (%s): '%s' %s; expected %s", data->input->path,
-                      (long long)data->input->number, data->column[k], data->by_name[k] ? asked->name : asked->role,
-                      data->cell[k], problem, expected);
-}
-
-hypofab_status table_real(const table *data, int k, const char *expected, double *value) {
-  if (!parse_real(data, data->cell[k], value)) return table_refuse(data, k, "is not a number", expected);
-  if (!isfinite(*value)) return table_refuse(data, k, "is not finite", expected);
-  return HYPOFAB_OK;
-}
-
-hypofab_status table_id(const table *data, int k, int64_t *value) {
-  static const char expected[] = "a particle id: a whole number, 0 or more";
-  const char *text = data->cell[k];
-  char *end;
-  errno = 0;
-  long long whole = strtoll(text, &end, 10);
-  if (end == text || *end != '\0') { /* some programs write every column as a real number */
-    double real;
-    hypofab_status status = table_real(data, k, expected, &real);
-    if (status) return status;
-    if (real != floor(real) || fabs(real) > 9007199254740992.0) /* 2^53: beyond it ids are no longer told apart */
-      return table_refuse(data, k, "is not a whole number", expected);
-    whole = (long long)real;
-  } else if (errno == ERANGE) {
-    return table_refuse(data, k, "is too large", expected);
-  }
-  if (whole < 0) return table_refuse(data, k, "is negative", expected);
-  *value = whole;
-  return HYPOFAB_OK;
+  char *found = NULL;
+  status = read_header(data, header, separator, &found);
+  free(found);
+  if (!status) status = check_columns(data);
+  return status ? status : enter_requests(data);
 }
 
 void table_close(table *data) {
-  csv_free(&data->parser);
-  if (data->c_locale) freelocale(data->c_locale);
-  data->c_locale = (locale_t)0;
+  free(data->request_of);
+  data->request_of = NULL;
 }

@@ -760,13 +760,72 @@ typedef struct hypofab_fabric {
   int64_t rattlers;                      /**< N_0 + N_1, particles with fewer than two contacts; -1 when not known */
 } hypofab_fabric;
 
-/** Where the data stand in a contact list. NULL or 0 in a field takes its default. */
+/** What becomes of contacts that are wrong: not a unit vector, not finite, listed twice, ... */
+typedef enum hypofab_treatment {
+  HYPOFAB_REFUSE = 0, /**< the file is refused; the message names the first and counts all */
+  HYPOFAB_SKIP = 1,   /**< they are left out and counted (hypofab_contact_report) */
+  HYPOFAB_KEEP = 2    /**< duplicates only: they are not looked for, and cost no memory */
+} hypofab_treatment;
+
+/** What becomes of contacts with walls: particles with a negative id, named as walls, or not in the particle file. */
+typedef enum hypofab_walls {
+  HYPOFAB_WALLS_UNKNOWN = 0, /**< ids that are negative or not in the particle file are refused as wrong */
+  HYPOFAB_WALLS_OUT = 1,     /**< contacts with walls are left out */
+  HYPOFAB_WALLS_IN = 2       /**< they count as contacts of their one particle; a wall is no particle */
+} hypofab_walls;
+
+/** Told how far a call is: what is being done and the fraction done. Non-zero asks to stop. */
+typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
+
+/**
+ * How a contact file is to be read. NULL or 0 in a field takes its default, so that {0} reads every file that shows
+ * its own format (docs/contact_files.md).
+ */
 typedef struct hypofab_contact_format {
   const char *id1, *id2, *nx, *ny, *nz; /**< column names, or 1-based column numbers as text; default: these names */
-  char separator;            /**< ',' ';' '\t', or 0: blanks and tabs, or commas when the header has commas */
+  char separator;            /**< ',' ';' '\t' ' ', or 0: what the first row shows */
   int64_t particles;         /**< N_p; 0: the particle file if given, else the number of different ids in the list */
   const char *particle_file; /**< particle list: one row per particle; column "id" when it has a header */
+  const char *kind;          /**< "table", "lammps", "vtk", "mercury", "pfc", "spam", "npy"; NULL: what it shows */
+  const char *columns;       /**< more columns: "ROLE=COLUMN,ROLE=COLUMN,..." (docs/contact_files.md) */
+  const char *particle_columns; /**< the same for the particle file: id, x, y, z, radius, volume, ax, ay, az */
+  int dimension;                /**< 2: disks in the plane x, y, tensors have xx, yy, xy; 0 or 3: spheres */
+  int has_timestep;             /**< whether `timestep` is given */
+  int64_t timestep;             /**< which one, of a dump with several */
+  int from_2_to_1;              /**< normals and branches of a table point from particle 2 to particle 1 */
+  int force_on_1;               /**< forces of a table act on particle 1 */
+  int normalise;                /**< normals of any length are taken */
+  hypofab_treatment wrong;      /**< of wrong contacts: refuse or skip */
+  hypofab_treatment duplicates; /**< of contacts listed twice: refuse, skip (keep one) or keep */
+  int duplicate_memory;         /**< MiB for finding them; 0: 32, enough to look at every pair of 3 million */
+  hypofab_walls walls;
+  const char *wall_ids;   /**< ids of walls: "0-5,17" */
+  double cell[3];         /**< lengths of the periodic cell; 0: not periodic, or told by the file [length] */
+  double volume;          /**< of the sample, for the void ratio; 0: of the cell, or told by the file [length^3] */
+  int has_box;            /**< only contacts inside a box */
+  double box[6];          /**< x, y, z from, x, y, z to [length] */
+  int has_sphere;         /**< only contacts inside a sphere */
+  double sphere[4];       /**< centre, radius [length] */
+  int threads;            /**< that parse the file; 0: as many as are there, up to 4. Results do not depend on it */
+  hypofab_progress progress; /**< may be NULL */
+  void *progress_user;       /**< handed to it */
 } hypofab_contact_format;
+
+/** What was found while reading contacts. */
+typedef struct hypofab_contact_report {
+  int64_t listed;            /**< contacts in the file */
+  int64_t used;              /**< of them delivered */
+  int64_t not_finite;        /**< left out: NaN or infinity in a column that is read */
+  int64_t zero_normals;      /**< left out: a normal without length */
+  int64_t not_unit;          /**< left out: a normal whose length differs from 1 by more than 0.001 */
+  int64_t with_themselves;   /**< left out: twice the same particle */
+  int64_t duplicates;        /**< left out: the same pair of particles and periodic image once more */
+  int64_t unknown_ids;       /**< left out: a particle that is not in the particle file, or a negative id */
+  int64_t walls;             /**< contacts with walls, left out or used */
+  int64_t outside;           /**< left out: outside the box or sphere */
+  int64_t second_listings;   /**< left out: listed from the other side too, as the file format has it */
+  int64_t duplicates_one_in; /**< duplicates were looked for among one in so many pairs; 0: not at all */
+} hypofab_contact_report;
 
 /**
  * @brief Fabric of a contact list: text, plain or gzip, streamed.
