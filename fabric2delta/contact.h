@@ -15,7 +15,9 @@ enum {
   CONTACT_HAS_FORCE = 1 << 3, /**< normal_force */
   CONTACT_HAS_SHEAR = 1 << 4, /**< shear_force */
   CONTACT_HAS_AREA = 1 << 5,
-  CONTACT_HAS_CELL = 1 << 6
+  CONTACT_HAS_CELL = 1 << 6,
+  CONTACT_WALL_1 = 1 << 8, /**< particle 1 is a wall */
+  CONTACT_WALL_2 = 1 << 9  /**< particle 2 is a wall */
 };
 
 /** One contact. Vectors point from particle 1 to particle 2. What `has` does not name is zero, ids are -1. */

@@ -20,7 +20,8 @@ typedef struct contact_chunk {
   contact *contacts;       /**< all of them, also those with a problem */
   unsigned char *problems; /**< contact_problem of each */
   size_t reserved, count;
-  size_t bad; /**< how many have a problem */
+  size_t bad;      /**< how many have a problem */
+  double fraction; /**< of the file, read when the chunk was filled; negative: not known */
 } contact_chunk;
 
 typedef struct contact_reader contact_reader;
@@ -85,6 +86,17 @@ typedef struct text_reader_options {
 /** Read rows of numbers: reader->input stands before the first row, or before the header. */
 hypofab_status text_reader_open(contact_reader *reader, const hypofab_contact_format *format,
                                 const contact_columns *columns, const text_reader_options *options);
+
+/** Read a binary array of NumPy; names of fields or numbers of columns. */
+hypofab_status npy_reader_open(contact_reader *reader, const hypofab_contact_format *format,
+                               const char *const (*usual)[TABLE_OTHER_NAMES + 1]);
+
+/** Whether a file begins as .npy files do. */
+bool npy_begins(const lines *input);
+
+/** Refuse a contact of a file without lines: "FILE: row 17: the normal (...) has length ..." */
+hypofab_status contact_refuse_by_values(const char *path, const char *unit, int64_t number, const contact *one,
+                                        contact_problem problem, int id_role);
 
 /** The formats: each opens a reader on a file whose input is open and whose layout is empty. */
 hypofab_status read_table(contact_reader *reader, const hypofab_contact_format *format);

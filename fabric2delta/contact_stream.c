@@ -1,116 +1,236 @@
-/* Contacts of a text table, row by row. */
 #include "fabric2delta/contact_stream.h"
 
-#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "base/message.h"
-#include "fabric2delta/contact_sum.h"
-#include "fabric2delta/table.h"
+#include "fabric2delta/contact_filter.h"
+#include "fabric2delta/contact_pipeline.h"
+#include "fabric2delta/pair_set.h"
 
-/* Columns in the order they are asked from the table; vectors take three places. */
-enum { NX, BX = 3, PX = 6, FNX = 9, FSX = 12, CELL_X = 15, ID1 = 18, ID2, FN, AREA, N_COLUMNS };
-
-static const char *const names[N_COLUMNS] = {
-    "nx",  "ny",  "nz",  "bx",  "by",         "bz",         "cpx",        "cpy", "cpz", "Fnx", "Fny",
-    "Fnz", "Fsx", "Fsy", "Fsz", "cellDist_x", "cellDist_y", "cellDist_z", "id1", "id2", "Fn",  "area"};
+enum { DEFAULT_DUPLICATE_MEMORY = 32 };
 
 struct contact_stream {
-  lines input;
-  table data;
-  table_request requests[N_COLUMNS];
+  const hypofab_contact_format *format;
+  contact_reader reader;
+  contact_pipeline pipeline;
+  particle_list particles;
+  contact_filter filter;
+  pair_set pairs;
+  bool looks_for_pairs;
   unsigned has;
+  contact_chunk *chunk; /* at hand; NULL: none */
+  size_t position;      /* in it */
+  bool ended;
+  hypofab_contact_report report;
+  int64_t refused; /* contacts that are wrong, when those are refused */
+  hypofab_status refusal;
+  char first_refused[HYPOFAB_MESSAGE_SIZE];
 };
 
-static bool has_vector(const table *data, int first) {
-  return data->column[first] && data->column[first + 1] && data->column[first + 2];
+/* ----------------------------------------------------------------- opening */
+
+static hypofab_status check_format(const hypofab_contact_format *format) {
+  if (format->dimension != 0 && format->dimension != 2 && format->dimension != 3)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "dimension %d; expected 2 or 3", format->dimension);
+  if (format->particles < 0)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%lld particles given; expected 0 (not known) or more",
+                        (long long)format->particles);
+  if (!(format->volume >= 0.0))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "volume %g; expected a positive volume", format->volume);
+  for (int i = 0; i < 3; i++)
+    if (!(format->cell[i] >= 0.0))
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "cell: length %g along %c; expected a positive length",
+                          format->cell[i], 'x' + i);
+  if (format->wrong == HYPOFAB_KEEP)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "wrong contacts can be refused or skipped, but not kept");
+  if (format->duplicate_memory < 0)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%d MiB for finding duplicates; expected 1 or more",
+                        format->duplicate_memory);
+  return HYPOFAB_OK;
 }
 
-static unsigned find_parts(const table *data) {
-  return (data->column[ID1] && data->column[ID2] ? CONTACT_HAS_IDS : 0) |
-         (has_vector(data, BX) ? CONTACT_HAS_BRANCH : 0) | (has_vector(data, PX) ? CONTACT_HAS_POSITION : 0) |
-         (data->column[FN] || has_vector(data, FNX) ? CONTACT_HAS_FORCE : 0) |
-         (has_vector(data, FSX) ? CONTACT_HAS_SHEAR : 0) | (data->column[AREA] ? CONTACT_HAS_AREA : 0) |
-         (has_vector(data, CELL_X) ? CONTACT_HAS_CELL : 0);
+/* The periodic cell: given, or told by either file. */
+static void find_length(const contact_stream *stream, double length[3]) {
+  memcpy(length, stream->reader.layout.length, 3 * sizeof *length);
+  if (length[0] == 0.0) memcpy(length, stream->particles.cell, 3 * sizeof *length);
+}
+
+static hypofab_status open_parts(contact_stream *stream, const char *path) {
+  const hypofab_contact_format *format = stream->format;
+  hypofab_status status = check_format(format);
+  if (!status && format->particle_file) status = particles_read(format, &stream->particles);
+  if (!status) status = contact_reader_open(&stream->reader, path, format);
+  if (status) return status;
+  double length[3];
+  find_length(stream, length);
+  stream->has = stream->reader.layout.has;
+  const bool listed = stream->particles.has & PARTICLE_HAS_ID;
+  if (listed && !(stream->has & CONTACT_HAS_IDS))
+    return hypofab_fail(HYPOFAB_BAD_FILE,
+                        "%s: no columns of particle ids to compare with the particle list; expected id1 and id2", path);
+  status = contact_filter_make(&stream->filter, format, format->particle_file ? &stream->particles : NULL, length,
+                               &stream->has);
+  if (status) return status;
+  stream->looks_for_pairs = stream->has & CONTACT_HAS_IDS && format->duplicates != HYPOFAB_KEEP;
+  stream->pairs = pair_set_of(format->duplicate_memory ? format->duplicate_memory : DEFAULT_DUPLICATE_MEMORY);
+  contact_pipeline_start(&stream->pipeline, &stream->reader, format->threads);
+  return HYPOFAB_OK;
 }
 
 hypofab_status contact_stream_open(const char *path, const hypofab_contact_format *format, contact_stream **stream) {
   static const hypofab_contact_format defaults = {0};
   *stream = NULL;
-  if (!format) format = &defaults;
   contact_stream *opened = calloc(1, sizeof *opened);
   if (!opened) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", path);
-  for (int k = 0; k < N_COLUMNS; k++)
-    opened->requests[k] = (table_request){.role = names[k], .name = names[k], .required = k < BX};
-  const char *const given[] = {[NX] = format->nx, [NX + 1] = format->ny, [NX + 2] = format->nz};
-  for (int k = 0; k < 3; k++)
-    if (given[k]) opened->requests[NX + k].name = given[k];
-  if (format->id1) opened->requests[ID1].name = format->id1;
-  if (format->id2) opened->requests[ID2].name = format->id2;
-  hypofab_status status = lines_open(&opened->input, path);
-  if (!status) {
-    status = table_open(&opened->data, &opened->input, format->separator, "contact", opened->requests, N_COLUMNS);
-    if (status) lines_close(&opened->input);
+  opened->format = format ? format : &defaults;
+  hypofab_status status = open_parts(opened, path);
+  if (status)
+    contact_stream_close(opened);
+  else
+    *stream = opened;
+  return status;
+}
+
+/* ------------------------------------------------------------ wrong contacts */
+
+static int64_t *counter_of(hypofab_contact_report *report, contact_problem problem) {
+  switch (problem) {
+    case CONTACT_NOT_FINITE: return &report->not_finite;
+    case CONTACT_ZERO_NORMAL: return &report->zero_normals;
+    case CONTACT_NOT_UNIT: return &report->not_unit;
+    case CONTACT_WITH_ITSELF: return &report->with_themselves;
+    case CONTACT_DUPLICATE: return &report->duplicates;
+    case CONTACT_UNKNOWN_ID: return &report->unknown_ids;
+    default: return &report->second_listings;
   }
-  if (status) {
-    free(opened);
-    return status;
+}
+
+/* Count a wrong contact; keep the message of the first one that makes the file refused. */
+static void note_problem(contact_stream *stream, size_t index, contact_problem problem, int id_role) {
+  ++*counter_of(&stream->report, problem);
+  const hypofab_contact_format *format = stream->format;
+  if (problem == CONTACT_LEFT_OUT) return;
+  if ((problem == CONTACT_DUPLICATE ? format->duplicates : format->wrong) == HYPOFAB_SKIP) return;
+  if (stream->refused++) return;
+  stream->refusal = stream->reader.refuse(&stream->reader, stream->chunk, index, problem, id_role);
+  snprintf(stream->first_refused, sizeof stream->first_refused, "%s", hypofab_last_message());
+}
+
+/* The message at the end of a file with wrong contacts: the first one and how many of each kind there are. */
+static hypofab_status refuse_all(const contact_stream *stream) {
+  const hypofab_contact_report *report = &stream->report;
+  if (stream->refused == 1) return hypofab_fail(stream->refusal, "%s", stream->first_refused);
+  const struct {
+    int64_t count;
+    const char *what;
+  } kinds[] = {{report->not_finite, "not finite"},
+               {report->zero_normals, "with a normal of length 0"},
+               {report->not_unit, "with a normal that is not a unit vector"},
+               {report->with_themselves, "of a particle with itself"},
+               {report->unknown_ids, "of particles not in the list"},
+               {report->duplicates, "listed before"}};
+  char all[320] = "";
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    const size_t used = strlen(all);
+    if (kinds[i].count)
+      snprintf(all + used, sizeof all - used, "%s%lld %s", used ? ", " : "", (long long)kinds[i].count, kinds[i].what);
   }
-  opened->has = find_parts(&opened->data);
-  *stream = opened;
+  return hypofab_fail(stream->refusal, "%.680s. In all %lld of %lld contacts are wrong: %s", stream->first_refused,
+                      (long long)stream->refused, (long long)report->listed, all);
+}
+
+/* ------------------------------------------------------------------ reading */
+
+static hypofab_status end_stream(contact_stream *stream) {
+  stream->ended = true;
+  stream->report.duplicates_one_in = stream->looks_for_pairs && stream->pairs.used ? (int64_t)stream->pairs.one_in : 0;
+  if (stream->report.listed == 0)
+    return hypofab_fail(HYPOFAB_BAD_FILE, "%s: no rows of data; expected one row per contact",
+                        stream->reader.input.path);
+  return stream->refused ? refuse_all(stream) : HYPOFAB_OK;
+}
+
+static hypofab_status next_chunk(contact_stream *stream) {
+  stream->position = 0;
+  hypofab_status status = contact_pipeline_take(&stream->pipeline, &stream->chunk);
+  if (status || !stream->chunk) return status ? status : end_stream(stream);
+  stream->report.listed += (int64_t)stream->chunk->count;
+  const hypofab_contact_format *format = stream->format;
+  if (format->progress && stream->chunk->fraction >= 0.0 &&
+      format->progress("reading contacts", stream->chunk->fraction, format->progress_user))
+    return hypofab_fail(HYPOFAB_INTERRUPTED, "%s: reading was interrupted", stream->reader.input.path);
   return HYPOFAB_OK;
 }
 
-unsigned contact_stream_has(const contact_stream *stream) { return stream->has; }
-
-static hypofab_status read_vector(const table *data, int first, double vector[3]) {
-  hypofab_status status = HYPOFAB_OK;
-  for (int i = 0; i < 3 && !status; i++) status = table_real(data, first + i, "a number", &vector[i]);
-  return status;
-}
-
-static hypofab_status read_contact(const contact_stream *stream, contact *one) {
-  const table *data = &stream->data;
-  const unsigned has = stream->has;
-  *one = (contact){.id1 = -1, .id2 = -1, .has = has};
-  hypofab_status status = read_vector(data, NX, one->normal);
-  const double *n = one->normal;
-  if (!status && !(fabs(hypot(hypot(n[0], n[1]), n[2]) - 1.0) <= contact_length_tolerance))
-    status = table_refuse(data, NX, "begins a normal that is not a unit vector", "length 1");
-  if (!status && has & CONTACT_HAS_IDS) status = table_id(data, ID1, &one->id1);
-  if (!status && has & CONTACT_HAS_IDS) status = table_id(data, ID2, &one->id2);
-  if (!status && has & CONTACT_HAS_IDS && one->id1 == one->id2)
-    status = table_refuse(data, ID2, "is the same particle as id1", "a contact of two different particles");
-  if (!status && has & CONTACT_HAS_BRANCH) status = read_vector(data, BX, one->branch);
-  if (!status && has & CONTACT_HAS_POSITION) status = read_vector(data, PX, one->position);
-  if (!status && has & CONTACT_HAS_SHEAR) status = read_vector(data, FSX, one->shear_force);
-  if (!status && has & CONTACT_HAS_AREA) status = table_real(data, AREA, "an area", &one->area);
-  double vector[3];
-  if (!status && data->column[FN]) status = table_real(data, FN, "a force", &one->normal_force);
-  if (!status && has_vector(data, FNX)) {
-    status = read_vector(data, FNX, vector);
-    one->normal_force = vector[0] * n[0] + vector[1] * n[1] + vector[2] * n[2];
+/* Whether the contact at hand is to be delivered. */
+static hypofab_status examine(contact_stream *stream, size_t index, bool *wanted) {
+  contact *one = &stream->chunk->contacts[index];
+  const contact_problem problem = (contact_problem)stream->chunk->problems[index];
+  *wanted = false;
+  if (problem) return note_problem(stream, index, problem, ROLE_ID2), HYPOFAB_OK;
+  const contact_verdict verdict = contact_filter_apply(&stream->filter, one);
+  stream->report.walls += (one->has & (CONTACT_WALL_1 | CONTACT_WALL_2)) != 0;
+  if (verdict == VERDICT_UNKNOWN_1 || verdict == VERDICT_UNKNOWN_2) {
+    note_problem(stream, index, CONTACT_UNKNOWN_ID, verdict == VERDICT_UNKNOWN_1 ? ROLE_ID1 : ROLE_ID2);
+    return HYPOFAB_OK;
   }
-  if (!status && has & CONTACT_HAS_CELL) {
-    status = read_vector(data, CELL_X, vector);
-    for (int i = 0; i < 3; i++) one->cell[i] = (int)vector[i];
-  }
-  return status;
+  bool again = false;
+  if (stream->looks_for_pairs && pair_set_enter(&stream->pairs, one, &again))
+    return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", stream->reader.input.path);
+  if (again) return note_problem(stream, index, CONTACT_DUPLICATE, ROLE_ID2), HYPOFAB_OK;
+  stream->report.outside += verdict == VERDICT_OUTSIDE;
+  *wanted = verdict == VERDICT_USE;
+  return HYPOFAB_OK;
 }
 
 hypofab_status contact_stream_next(contact_stream *stream, contact *block, size_t capacity, size_t *count) {
-  for (*count = 0; *count < capacity; ++*count) {
-    bool more;
-    hypofab_status status = table_next(&stream->data, &more);
-    if (!status && more) status = read_contact(stream, &block[*count]);
-    if (status || !more) return status;
+  *count = 0;
+  hypofab_status status;
+  while (*count < capacity && !stream->ended) {
+    if (!stream->chunk || stream->position == stream->chunk->count) {
+      /* Contacts already delivered are not held back by a file that ends badly: the status says so. */
+      if ((status = next_chunk(stream))) return status;
+      continue;
+    }
+    bool wanted;
+    const size_t index = stream->position++;
+    if ((status = examine(stream, index, &wanted))) return status;
+    if (!wanted || stream->refused) continue;
+    block[(*count)++] = stream->chunk->contacts[index];
+    stream->report.used++;
   }
   return HYPOFAB_OK;
 }
 
+/* ---------------------------------------------------------------- accessors */
+
+unsigned contact_stream_has(const contact_stream *stream) { return stream->has; }
+
+const particle_list *contact_stream_particles(const contact_stream *stream) {
+  return stream->format->particle_file ? &stream->particles : NULL;
+}
+
+double contact_stream_volume(const contact_stream *stream) {
+  const hypofab_contact_format *format = stream->format;
+  const double cell = format->cell[0] * format->cell[1] * (format->dimension == 2 ? 1.0 : format->cell[2]);
+  if (format->volume > 0.0) return format->volume;
+  if (cell > 0.0) return cell;
+  return stream->reader.volume > 0.0 ? stream->reader.volume : stream->particles.volume;
+}
+
+bool contact_stream_is_inside(const contact_stream *stream, const double point[3]) {
+  return contact_filter_is_inside(&stream->filter, point);
+}
+
+const hypofab_contact_report *contact_stream_report(const contact_stream *stream) { return &stream->report; }
+
 void contact_stream_close(contact_stream *stream) {
   if (!stream) return;
-  table_close(&stream->data);
-  lines_close(&stream->input);
+  contact_pipeline_stop(&stream->pipeline);
+  if (stream->reader.input.path) contact_reader_close(&stream->reader);
+  particles_free(&stream->particles);
+  contact_filter_free(&stream->filter);
+  pair_set_free(&stream->pairs);
   free(stream);
 }

@@ -85,7 +85,7 @@ snapshot_problem snapshot_seal(hypofab_snapshot *snapshot, contact_pair *twice) 
     const contact_pair *pair = &snapshot->contacts.items[i].pair;
     const int64_t ids[2] = {pair->low, pair->high};
     for (int k = 0; k < 2; k++) {
-      int64_t *count = id_counts_enter(&counts, ids[k]);
+      uint32_t *count = id_counts_enter(&counts, ids[k]);
       if (count)
         ++*count;
       else
