@@ -153,7 +153,7 @@ static hypofab_status read_packed(byte_source *source, char *buffer, size_t size
     }
     if (source->complete && !follows(source)) return HYPOFAB_OK;
     const size_t waiting = source->end - source->begin;
-    size_t made;
+    size_t made = 0;
     hypofab_status status = source->packed == GZIP ? inflate_some(source, buffer + *got, size - *got, &made)
                                                    : decompress_some(source, buffer + *got, size - *got, &made);
     if (status) return status;

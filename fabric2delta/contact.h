@@ -16,8 +16,9 @@ enum {
   CONTACT_HAS_SHEAR = 1 << 4, /**< shear_force */
   CONTACT_HAS_AREA = 1 << 5,
   CONTACT_HAS_CELL = 1 << 6,
-  CONTACT_WALL_1 = 1 << 8, /**< particle 1 is a wall */
-  CONTACT_WALL_2 = 1 << 9  /**< particle 2 is a wall */
+  CONTACT_WALL_1 = 1 << 8,  /**< particle 1 is a wall */
+  CONTACT_WALL_2 = 1 << 9,  /**< particle 2 is a wall */
+  CONTACT_OUTSIDE = 1 << 10 /**< outside the box or sphere; delivered only to those who ask for it */
 };
 
 /** One contact. Vectors point from particle 1 to particle 2. What `has` does not name is zero, ids are -1. */

@@ -67,11 +67,12 @@ static hypofab_status enter(contact_columns *columns, char *pair) {
   char *equals = strchr(pair, '=');
   const int role = equals ? find_role(pair, (size_t)(equals - pair)) : -1;
   if (role < 0 || equals[1] == '\0')
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
-                        "columns: '%s'; expected ROLE=COLUMN with one of the roles id1, id2, nx, ny, nz, bx .. (branch), "
-                        "px .. (contact point), fn, fx .. (force), fnx .. (normal force), fsx .. (shear force), area, "
-                        "cell_x .. (image), x1 .., x2 .. (centres), r1",
-                        pair);
+    return hypofab_fail(
+        HYPOFAB_BAD_ARGUMENT,
+        "columns: '%s'; expected ROLE=COLUMN with one of the roles id1, id2, nx, ny, nz, bx .. (branch), "
+        "px .. (contact point), fn, fx .. (force), fnx .. (normal force), fsx .. (shear force), area, "
+        "cell_x .. (image), x1 .., x2 .. (centres), r1",
+        pair);
   columns->requests[role].name = equals + 1;
   columns->requests[role].required = true;
   memset(columns->requests[role].other_names, 0, sizeof columns->requests[role].other_names);

@@ -124,7 +124,8 @@ contact_verdict contact_filter_apply(const contact_filter *filter, contact *one)
   const hypofab_contact_format *format = filter->format;
   if (one->has & CONTACT_HAS_IDS) {
     const bool wall1 = is_wall(filter, one->id1), wall2 = is_wall(filter, one->id2);
-    if (format->walls == HYPOFAB_WALLS_UNKNOWN && (wall1 || wall2)) return wall1 ? VERDICT_UNKNOWN_1 : VERDICT_UNKNOWN_2;
+    if (format->walls == HYPOFAB_WALLS_UNKNOWN && (wall1 || wall2))
+      return wall1 ? VERDICT_UNKNOWN_1 : VERDICT_UNKNOWN_2;
     if (wall1) one->has |= CONTACT_WALL_1;
     if (wall2) one->has |= CONTACT_WALL_2;
     if (filter->adds_branch || filter->adds_position) complete(filter, one);

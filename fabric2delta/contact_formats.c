@@ -44,7 +44,7 @@ static const struct contact_format {
   bool (*recognises)(const char *path, const char *head);
   hypofab_status (*open)(contact_reader *reader, const hypofab_contact_format *format);
 } formats[] = {
-    {"lammps", is_lammps, read_lammps}, {"vtk", is_vtk, read_vtk},       {"npy", is_npy, read_npy},
+    {"lammps", is_lammps, read_lammps},    {"vtk", is_vtk, read_vtk},        {"npy", is_npy, read_npy},
     {"mercury", is_mercury, read_mercury}, {"pfc", only_if_asked, read_pfc}, {"spam", only_if_asked, read_spam},
     {"table", is_anything, read_table},
 };

@@ -8,10 +8,12 @@
 const double contact_length_tolerance = 1e-3;
 
 const char *const contact_role_names[CONTACT_ROLES] = {
-    "nx",     "ny",     "nz",     "bx", "by", "bz", "px", "py", "pz",  "fx",  "fy", "fz", "fnx", "fny", "fnz", "fsx", "fsy", "fsz",
-    "cell_x", "cell_y", "cell_z", "x1", "y1", "z1", "x2", "y2", "z2",  "id1", "id2", "fn", "area", "r1", "ft", "tx", "ty", "tz"};
+    "nx",  "ny",  "nz",  "bx",  "by",  "bz",  "px",     "py",     "pz",     "fx", "fy", "fz",
+    "fnx", "fny", "fnz", "fsx", "fsy", "fsz", "cell_x", "cell_y", "cell_z", "x1", "y1", "z1",
+    "x2",  "y2",  "z2",  "id1", "id2", "fn",  "area",   "r1",     "ft",     "tx", "ty", "tz"};
 
-static const int vectors[] = {ROLE_NX, ROLE_BX, ROLE_PX, ROLE_FX, ROLE_FNX, ROLE_FSX, ROLE_CELL_X, ROLE_X1, ROLE_X2, ROLE_TX};
+static const int vectors[] = {ROLE_NX,  ROLE_BX,     ROLE_PX, ROLE_FX, ROLE_FNX,
+                              ROLE_FSX, ROLE_CELL_X, ROLE_X1, ROLE_X2, ROLE_TX};
 
 static hypofab_status check_pair(const contact_layout *layout, const char *path, int first, int second) {
   if (layout->has_role[first] == layout->has_role[second]) return HYPOFAB_OK;

@@ -33,14 +33,14 @@ typedef enum contact_role {
 /** Why a row is no contact. */
 typedef enum contact_problem {
   CONTACT_FINE = 0,
-  CONTACT_NOT_FINITE,   /**< NaN or infinity in a column that is read */
-  CONTACT_ZERO_NORMAL,  /**< the normal has no length */
-  CONTACT_NOT_UNIT,     /**< | |n| - 1 | > contact_length_tolerance */
-  CONTACT_WITH_ITSELF,  /**< id1 = id2 */
-  CONTACT_DUPLICATE,    /**< the pair, with the same periodic image, was there before */
-  CONTACT_UNKNOWN_ID,   /**< of a particle that is not in the particle list */
-  CONTACT_LEFT_OUT,     /**< by the format itself: the same contact stands elsewhere in the file */
-  CONTACT_PROBLEMS
+  CONTACT_NOT_FINITE,  /**< NaN or infinity in a column that is read */
+  CONTACT_ZERO_NORMAL, /**< the normal has no length */
+  CONTACT_NOT_UNIT,    /**< | |n| - 1 | > contact_length_tolerance */
+  CONTACT_WITH_ITSELF, /**< id1 = id2 */
+  CONTACT_DUPLICATE,   /**< the pair, with the same periodic image, was there before */
+  CONTACT_UNKNOWN_ID,  /**< of a particle that is not in the particle list */
+  CONTACT_LEFT_OUT,    /**< by the format itself: the same contact stands elsewhere in the file */
+  CONTACT_NO_MEMORY
 } contact_problem;
 
 /** Largest | |n| - 1 |: three printed digits give at most 0.0009. */
@@ -49,14 +49,14 @@ extern const double contact_length_tolerance;
 /** What the columns of a file mean. */
 typedef struct contact_layout {
   bool has_role[CONTACT_ROLES];
-  unsigned has;         /**< of the contacts: CONTACT_HAS_... */
-  bool from_2_to_1;     /**< normals and branches of the file point from particle 2 to 1 */
-  bool force_on_1;      /**< forces of the file act on particle 1 */
-  bool normalise;       /**< normals of any length are taken */
-  bool both_sides;      /**< every contact of two particles is listed twice: those with id1 > id2 are left out */
-  bool walls_reversed;  /**< contacts with walls (id2 < 0) have normals and forces of the opposite sense */
-  bool plane;           /**< two dimensions: x and y alone */
-  double length[3];     /**< of the periodic cell, for branches from centres; 0: not periodic */
+  unsigned has;        /**< of the contacts: CONTACT_HAS_... */
+  bool from_2_to_1;    /**< normals and branches of the file point from particle 2 to 1 */
+  bool force_on_1;     /**< forces of the file act on particle 1 */
+  bool normalise;      /**< normals of any length are taken */
+  bool both_sides;     /**< every contact of two particles is listed twice: those with id1 > id2 are left out */
+  bool walls_reversed; /**< contacts with walls (id2 < 0) have normals and forces of the opposite sense */
+  bool plane;          /**< two dimensions: x and y alone */
+  double length[3];    /**< of the periodic cell, for branches from centres; 0: not periodic */
 } contact_layout;
 
 /** Names of the roles, as in `columns` of hypofab_contact_format: "nx", "ny", ... */

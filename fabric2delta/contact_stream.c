@@ -18,6 +18,7 @@ struct contact_stream {
   contact_filter filter;
   pair_set pairs;
   bool looks_for_pairs;
+  bool delivers_outside;
   unsigned has;
   contact_chunk *chunk; /* at hand; NULL: none */
   size_t position;      /* in it */
@@ -40,8 +41,8 @@ static hypofab_status check_format(const hypofab_contact_format *format) {
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "volume %g; expected a positive volume", format->volume);
   for (int i = 0; i < 3; i++)
     if (!(format->cell[i] >= 0.0))
-      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "cell: length %g along %c; expected a positive length",
-                          format->cell[i], 'x' + i);
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "cell: length %g along %c; expected a positive length", format->cell[i],
+                          'x' + i);
   if (format->wrong == HYPOFAB_KEEP)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "wrong contacts can be refused or skipped, but not kept");
   if (format->duplicate_memory < 0)
@@ -180,7 +181,8 @@ static hypofab_status examine(contact_stream *stream, size_t index, bool *wanted
     return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", stream->reader.input.path);
   if (again) return note_problem(stream, index, CONTACT_DUPLICATE, ROLE_ID2), HYPOFAB_OK;
   stream->report.outside += verdict == VERDICT_OUTSIDE;
-  *wanted = verdict == VERDICT_USE;
+  if (verdict == VERDICT_OUTSIDE) one->has |= CONTACT_OUTSIDE;
+  *wanted = verdict == VERDICT_USE || (verdict == VERDICT_OUTSIDE && stream->delivers_outside);
   return HYPOFAB_OK;
 }
 
@@ -198,7 +200,7 @@ hypofab_status contact_stream_next(contact_stream *stream, contact *block, size_
     if ((status = examine(stream, index, &wanted))) return status;
     if (!wanted || stream->refused) continue;
     block[(*count)++] = stream->chunk->contacts[index];
-    stream->report.used++;
+    stream->report.used += !(stream->chunk->contacts[index].has & CONTACT_OUTSIDE);
   }
   return HYPOFAB_OK;
 }
@@ -222,6 +224,8 @@ double contact_stream_volume(const contact_stream *stream) {
 bool contact_stream_is_inside(const contact_stream *stream, const double point[3]) {
   return contact_filter_is_inside(&stream->filter, point);
 }
+
+void contact_stream_deliver_outside(contact_stream *stream) { stream->delivers_outside = true; }
 
 const hypofab_contact_report *contact_stream_report(const contact_stream *stream) { return &stream->report; }
 

@@ -52,6 +52,9 @@ bool contact_stream_is_inside(const contact_stream *stream, const double point[3
  */
 hypofab_status contact_stream_next(contact_stream *stream, contact *block, size_t capacity, size_t *count);
 
+/** Have contacts outside the box or sphere delivered too, marked CONTACT_OUTSIDE. */
+void contact_stream_deliver_outside(contact_stream *stream);
+
 /** What was found so far. */
 const hypofab_contact_report *contact_stream_report(const contact_stream *stream);
 

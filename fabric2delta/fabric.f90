@@ -68,10 +68,15 @@ contains
 
   !> Deviatoric fabric F = 15/2 (N - 1/3 1) (paper Eq. 3), anisotropy a = sqrt(3/2 F:F) (Eq. 4), principal values and
   !> directions of a fabric tensor. Counts are set to 0 (not known), coordination numbers to NaN.
+  !>
+  !> In two dimensions F = 4 (N - 1/2 1) with xx, yy, xy alone (Kanatani 1984) and a = sqrt(1/2 F:F), the amplitude of
+  !> E(phi) = 1/(2 pi) (1 + a cos 2(phi - phi_a)); the third principal value is 0 and belongs to z.
+  !> @param plane   not 0: two dimensions
   !> @param tensor  (6): fabric tensor N, finite
   !> @param fabric  filled
   !> @return 0, or LAPACK's info when the eigenvalues could not be found
-  function describe_fabric(tensor, fabric) result(info) bind(C, name='hypofab_fabric_describe')
+  function describe_fabric(plane, tensor, fabric) result(info) bind(C, name='hypofab_fabric_describe')
+    integer(c_int), value, intent(in) :: plane
     real(wp), intent(in) :: tensor(6)
     type(fabric_t), intent(out) :: fabric
     integer(c_int) :: info
@@ -82,31 +87,38 @@ contains
     fabric%mechanical_coordination_number = ieee_value(1.0_wp, ieee_quiet_nan)
     fabric%rattlers = -1
     fabric%fabric = tensor
-    fabric%deviatoric_fabric = 7.5_wp * (tensor - unit_tensor / 3.0_wp)
-    fabric%anisotropy = sqrt(1.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
+    if (plane /= 0) then
+      fabric%deviatoric_fabric = 4.0_wp * (tensor - [0.5_wp, 0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      fabric%anisotropy = sqrt(0.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
+    else
+      fabric%deviatoric_fabric = 7.5_wp * (tensor - unit_tensor / 3.0_wp)
+      fabric%anisotropy = sqrt(1.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
+    end if
     call find_principal(tensor, fabric%principal_values, fabric%principal_directions, info)
   end function describe_fabric
 
   !> Coordination number 2 N_c/N_p (paper Eq. 1) and mechanical coordination number (2 N_c - N_1)/(N_p - N_0 - N_1)
-  !> (Thornton 2000), which leaves out particles with no or one contact. NaN where a denominator vanishes.
+  !> (Thornton 2000), which leaves out particles with no or one contact. NaN where a denominator vanishes. A contact
+  !> with a wall, or with a particle outside the region looked at, is one of one particle: 2 N_c stands for all ends.
   !> @param contacts   N_c
+  !> @param ends       contacts of all particles together; 2 N_c without walls and regions
   !> @param particles  N_p, 0 when not known
   !> @param none       N_0, particles without contact; negative when contacts per particle are not known
   !> @param one        N_1, particles with one contact
   !> @param fabric     in and out: its counts and coordination numbers are set
-  pure subroutine count_coordination(contacts, particles, none, one, fabric) &
+  pure subroutine count_coordination(contacts, ends, particles, none, one, fabric) &
     bind(C, name='hypofab_fabric_count_coordination')
-    integer(c_int64_t), value, intent(in) :: contacts, particles, none, one
+    integer(c_int64_t), value, intent(in) :: contacts, ends, particles, none, one
     type(fabric_t), intent(inout) :: fabric
 
     fabric%contacts = contacts
     fabric%particles = particles
-    fabric%coordination_number = quotient(2 * contacts, particles)
+    fabric%coordination_number = quotient(ends, particles)
     fabric%rattlers = merge(none + one, -1_c_int64_t, none >= 0)
     if (none < 0) then
       fabric%mechanical_coordination_number = quotient(0_c_int64_t, 0_c_int64_t)
     else
-      fabric%mechanical_coordination_number = quotient(2 * contacts - one, particles - none - one)
+      fabric%mechanical_coordination_number = quotient(ends - one, particles - none - one)
     end if
   end subroutine count_coordination
 

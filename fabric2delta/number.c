@@ -77,8 +77,7 @@ const char *number_read(const char *text, double *value) {
     if (down || *p == '+') p++;
     int exponent = 0;
     if (!is_digit(*p)) p = mark;
-    while (p != mark && is_digit(*p))
-      exponent = exponent < 10000 ? 10 * exponent + (*p++ - '0') : (p++, exponent);
+    while (p != mark && is_digit(*p)) exponent = exponent < 10000 ? 10 * exponent + (*p++ - '0') : (p++, exponent);
     power += down ? -exponent : exponent;
   }
   if (!scale(digits, power, value)) return read_slowly(text, value);

@@ -19,9 +19,9 @@ static uint64_t mix(uint64_t x) {
 
 /* Equal for a pair and its listing from the other side, where the image counts the other way. */
 static uint64_t hash_of(const contact *one) {
-  const bool turned = one->id1 > one->id2 ||
-                      (one->id1 == one->id2 && (one->cell[0] < 0 || (one->cell[0] == 0 && one->cell[1] < 0) ||
-                                                (one->cell[0] == 0 && one->cell[1] == 0 && one->cell[2] < 0)));
+  const bool turned =
+      one->id1 > one->id2 || (one->id1 == one->id2 && (one->cell[0] < 0 || (one->cell[0] == 0 && one->cell[1] < 0) ||
+                                                       (one->cell[0] == 0 && one->cell[1] == 0 && one->cell[2] < 0)));
   const int64_t first = turned ? one->id2 : one->id1, second = turned ? one->id1 : one->id2;
   const int sense = turned ? -1 : 1;
   uint64_t image = 0;

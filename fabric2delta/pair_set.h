@@ -26,7 +26,8 @@ typedef struct pair_set {
 /** An empty set of at most that many MiB. */
 pair_set pair_set_of(int mebibytes);
 
-/** Enter the pair of a contact, image included, whichever particle comes first. @param again set to whether it was there
+/** Enter the pair of a contact, image included, whichever particle comes first. @param again set to whether it was
+ * there
  * @return -1 when memory ran out */
 int pair_set_enter(pair_set *set, const contact *one, bool *again);
 

@@ -138,8 +138,7 @@ static hypofab_status read_rows(table *data, int64_t rows, bool plane, particle_
   if (list->count >= UINT32_MAX)
     return hypofab_fail(HYPOFAB_BAD_FILE, "%s: more than %u particles with ids", path, UINT32_MAX - 1);
   qsort(list->particles, (size_t)list->count, sizeof *list->particles, by_id);
-  for (int64_t i = 0; i < list->count; i++)
-    *id_counts_enter(&list->indices, list->particles[i].id) = (uint32_t)(i + 1);
+  for (int64_t i = 0; i < list->count; i++) *id_counts_enter(&list->indices, list->particles[i].id) = (uint32_t)(i + 1);
   return HYPOFAB_OK;
 }
 
@@ -192,8 +191,7 @@ hypofab_status particles_read(const hypofab_contact_format *format, particle_lis
   table_request requests[COLUMNS];
   memcpy(requests, usual, sizeof requests);
   char *names = format->particle_columns ? strdup(format->particle_columns) : NULL;
-  hypofab_status status =
-      format->particle_columns && !names ? out_of_memory(format->particle_file) : HYPOFAB_OK;
+  hypofab_status status = format->particle_columns && !names ? out_of_memory(format->particle_file) : HYPOFAB_OK;
   if (names) status = choose_columns(requests, names);
   lines input = {0};
   if (!status) status = lines_open(&input, format->particle_file);

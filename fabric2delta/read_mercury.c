@@ -6,11 +6,12 @@
  * which the forces act. Rows of walls have both the other way round. */
 #include "fabric2delta/contact_reader.h"
 
-static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] = {
-    [ROLE_ID1] = {"2"},      [ROLE_ID2] = {"3"},      [ROLE_PX] = {"4"},      [ROLE_PX + 1] = {"5"},
-    [ROLE_PX + 2] = {"6"},   [ROLE_FN] = {"9"},       [ROLE_FT] = {"10"},     [ROLE_NX] = {"11"},
-    [ROLE_NX + 1] = {"12"},  [ROLE_NX + 2] = {"13"},  [ROLE_TX] = {"14"},     [ROLE_TX + 1] = {"15"},
-    [ROLE_TX + 2] = {"16"}};
+static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] =
+    {
+        [ROLE_ID1] = {"2"},     [ROLE_ID2] = {"3"},     [ROLE_PX] = {"4"},  [ROLE_PX + 1] = {"5"},
+        [ROLE_PX + 2] = {"6"},  [ROLE_FN] = {"9"},      [ROLE_FT] = {"10"}, [ROLE_NX] = {"11"},
+        [ROLE_NX + 1] = {"12"}, [ROLE_NX + 2] = {"13"}, [ROLE_TX] = {"14"}, [ROLE_TX + 1] = {"15"},
+        [ROLE_TX + 2] = {"16"}};
 
 hypofab_status read_mercury(contact_reader *reader, const hypofab_contact_format *format) {
   contact_columns columns;

@@ -76,8 +76,7 @@ static hypofab_status read_value(const contact_reader *reader, int role, const c
   } else {
     value->whole = whole_at(field, row);
   }
-  if (value->whole < 0 && !own->may_be_negative[role])
-    return refuse_value(reader, role, number, (double)value->whole);
+  if (value->whole < 0 && !own->may_be_negative[role]) return refuse_value(reader, role, number, (double)value->whole);
   return HYPOFAB_OK;
 }
 

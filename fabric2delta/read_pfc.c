@@ -2,7 +2,7 @@
  * contact.normal points from end 1 to end 2, contact.force.global is the force on end 2. */
 #include "fabric2delta/contact_reader.h"
 
-#define VECTOR(role, name) \
+#define VECTOR(role, name)                                                                      \
   [role] = {"contact." name ".x", name ".x"}, [(role) + 1] = {"contact." name ".y", name ".y"}, \
   [(role) + 2] = {"contact." name ".z", name ".z"}
 

@@ -26,8 +26,7 @@ static hypofab_status check_end(contact_reader *reader, const text_reader *own) 
   bool more;
   if (!own->options.no_more) return HYPOFAB_OK;
   hypofab_status status = lines_next(&reader->input, &more);
-  if (status || !more || strncmp(reader->input.text, own->options.no_more, strlen(own->options.no_more)))
-    return status;
+  if (status || !more || strncmp(reader->input.text, own->options.no_more, strlen(own->options.no_more))) return status;
   return hypofab_fail(HYPOFAB_BAD_FILE,
                       "%s:%lld: another time step begins; expected one, or the time step wanted to be named",
                       reader->input.path, (long long)reader->input.number);
@@ -43,7 +42,8 @@ static hypofab_status fill_text(contact_reader *reader, contact_chunk *chunk) {
       lines_block(&reader->input, most, chunk->bytes, chunk->size - 1, &chunk->length, &chunk->first);
   if (status || own->left < 0) return status;
   if (chunk->length == 0)
-    return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the file ends, but its head tells of %lld rows more; it was cut off",
+    return hypofab_fail(HYPOFAB_BAD_FILE,
+                        "%s:%lld: the file ends, but its head tells of %lld rows more; it was cut off",
                         reader->input.path, (long long)before, (long long)own->left);
   own->left -= reader->input.number - before;
   /* A last line without its end counts as a line too. */
@@ -83,7 +83,8 @@ static hypofab_status parse_text(const contact_reader *reader, contact_chunk *ch
   if (own->options.comment_ends)
     for (const char *p = line; p < stop && (end = memchr(p, '\n', (size_t)(stop - p))); p = end + 1)
       if (is_comment(p))
-        return hypofab_fail(HYPOFAB_BAD_FILE, "%s: a comment stands among the rows: another time step begins; expected one",
+        return hypofab_fail(HYPOFAB_BAD_FILE,
+                            "%s: a comment stands among the rows: another time step begins; expected one",
                             reader->input.path);
   while ((line = next_row(line, stop, &end, &number))) {
     if ((status = table_row(&own->data, line, end, number, values))) return status;

@@ -27,15 +27,9 @@ typedef struct vtk_reader {
 
 /* Arrays by the role of their first number. YADE's users choose the names; these are those of its documentation. */
 static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] = {
-    [ROLE_NX] = {"normal", "n"},
-    [ROLE_FNX] = {"fn", "normalForce"},
-    [ROLE_FSX] = {"fs", "shearForce"},
-    [ROLE_FX] = {"force"},
-    [ROLE_FN] = {"fn", "normalForce"},
-    [ROLE_ID1] = {"id1"},
-    [ROLE_ID2] = {"id2"},
-    [ROLE_CELL_X] = {"cellDist", "cell"},
-    [ROLE_AREA] = {"area"},
+    [ROLE_NX] = {"normal", "n"}, [ROLE_FNX] = {"fn", "normalForce"},   [ROLE_FSX] = {"fs", "shearForce"},
+    [ROLE_FX] = {"force"},       [ROLE_FN] = {"fn", "normalForce"},    [ROLE_ID1] = {"id1"},
+    [ROLE_ID2] = {"id2"},        [ROLE_CELL_X] = {"cellDist", "cell"}, [ROLE_AREA] = {"area"},
 };
 
 static void close_vtk(contact_reader *reader) {
@@ -75,10 +69,10 @@ static hypofab_status read_row(vtk_reader *own, table_value *values) {
       const int role = from->role + i;
       if (own->whole[role]) {
         if (!status && (value != (double)(int64_t)value || (value < 0 && role >= ROLE_ID1)))
-          status = hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: %s: '%.40s'; expected a whole number%s",
-                                from->numbers.input.path, (long long)from->numbers.input.number,
-                                contact_role_names[role], from->numbers.input.text,
-                                role >= ROLE_ID1 ? ", 0 or more" : "");
+          status =
+              hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: %s: '%.40s'; expected a whole number%s",
+                           from->numbers.input.path, (long long)from->numbers.input.number, contact_role_names[role],
+                           from->numbers.input.text, role >= ROLE_ID1 ? ", 0 or more" : "");
         if (!status) values[role].whole = (int64_t)value;
       } else {
         values[role].real = value;
@@ -111,8 +105,8 @@ static hypofab_status parse_vtk(const contact_reader *reader, contact_chunk *chu
 
 static hypofab_status refuse_vtk(const contact_reader *reader, const contact_chunk *chunk, size_t index,
                                  contact_problem problem, int id_role) {
-  return contact_refuse_by_values(reader->input.path, "contact", chunk->first + (int64_t)index,
-                                  &chunk->contacts[index], problem, id_role);
+  return contact_refuse_by_values(reader->input.path, "contact", chunk->first + (int64_t)index, &chunk->contacts[index],
+                                  problem, id_role);
 }
 
 static hypofab_status refuse_xml(const lines *input) {

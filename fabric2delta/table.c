@@ -35,8 +35,8 @@ static hypofab_status split(field_count *count, char *text, field_receiver recei
   if (csv_init(&parser, CSV_APPEND_NULL)) return out_of_memory(count->data);
   csv_set_delim(&parser, (unsigned char)count->separator);
   size_t length = strlen(text);
-  bool failed = csv_parse(&parser, text, length, receive, NULL, count) != length ||
-                csv_fini(&parser, receive, NULL, count) != 0;
+  bool failed =
+      csv_parse(&parser, text, length, receive, NULL, count) != length || csv_fini(&parser, receive, NULL, count) != 0;
   csv_free(&parser);
   return failed ? out_of_memory(count->data) : HYPOFAB_OK;
 }

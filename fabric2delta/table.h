@@ -37,14 +37,14 @@ typedef struct table {
   const char *rows_are; /**< what a row holds, for messages: "contact" */
   const table_request *requests;
   int n_requests;
-  int column[TABLE_MAX_REQUESTS];      /**< 1-based number of each requested column; 0: not there */
+  int column[TABLE_MAX_REQUESTS];       /**< 1-based number of each requested column; 0: not there */
   const char *name[TABLE_MAX_REQUESTS]; /**< under which a column was found, for messages */
-  char separator;                      /**< ',' ';' '\t' ' ' (runs of blanks and tabs) */
-  int width;                           /**< columns every row has */
-  bool width_of_header;                /**< the width comes from the header, else from the first row */
-  int64_t rows;                        /**< rows delivered by table_next so far */
-  char names[TABLE_NAMES];             /**< names found in the header, for messages */
-  signed char *request_of;             /**< request of each column 1..width, or -1 */
+  char separator;                       /**< ',' ';' '\t' ' ' (runs of blanks and tabs) */
+  int width;                            /**< columns every row has */
+  bool width_of_header;                 /**< the width comes from the header, else from the first row */
+  int64_t rows;                         /**< rows delivered by table_next so far */
+  char names[TABLE_NAMES];              /**< names found in the header, for messages */
+  signed char *request_of;              /**< request of each column 1..width, or -1 */
 } table;
 
 /**

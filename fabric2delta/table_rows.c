@@ -35,10 +35,16 @@ static inline const char *skip_blanks(const char *p, const char *end) {
   return p;
 }
 
+/* Blanks around a field that something else separates. */
+static inline const char *skip_padding(const table *data, const char *p, const char *end) {
+  while (data->separator != ' ' && p < end && (*p == ' ' || (*p == '\t' && data->separator != '\t'))) p++;
+  return p;
+}
+
 /* The number in the field at p, NULL when it holds none or something more. */
 static inline const char *read_field(const table *data, const table_request *asked, const char *p, const char *end,
                                      table_value *value) {
-  if (data->separator != ' ' && data->separator != '\t') p = skip_blanks(p, end);
+  p = skip_padding(data, p, end);
   const bool quoted = p < end && *p == '"';
   p += quoted;
   if (p == end) return NULL;
@@ -57,7 +63,7 @@ static inline const char *read_field(const table *data, const table_request *ask
     if (!p || (!isfinite(value->real) && !asked->may_be_infinite)) return NULL;
   }
   if (quoted && (p == end || *p++ != '"')) return NULL;
-  if (data->separator != ' ') p = skip_blanks(p, end);
+  p = skip_padding(data, p, end);
   return p <= end && ends_field(data, p, end) ? p : NULL;
 }
 

@@ -783,11 +783,11 @@ typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
  */
 typedef struct hypofab_contact_format {
   const char *id1, *id2, *nx, *ny, *nz; /**< column names, or 1-based column numbers as text; default: these names */
-  char separator;            /**< ',' ';' '\t' ' ', or 0: what the first row shows */
-  int64_t particles;         /**< N_p; 0: the particle file if given, else the number of different ids in the list */
-  const char *particle_file; /**< particle list: one row per particle; column "id" when it has a header */
-  const char *kind;          /**< "table", "lammps", "vtk", "mercury", "pfc", "spam", "npy"; NULL: what it shows */
-  const char *columns;       /**< more columns: "ROLE=COLUMN,ROLE=COLUMN,..." (docs/contact_files.md) */
+  char separator;                       /**< ',' ';' '\t' ' ', or 0: what the first row shows */
+  int64_t particles;            /**< N_p; 0: the particle file if given, else the number of different ids in the list */
+  const char *particle_file;    /**< particle list: one row per particle; column "id" when it has a header */
+  const char *kind;             /**< "table", "lammps", "vtk", "mercury", "pfc", "spam", "npy"; NULL: what it shows */
+  const char *columns;          /**< more columns: "ROLE=COLUMN,ROLE=COLUMN,..." (docs/contact_files.md) */
   const char *particle_columns; /**< the same for the particle file: id, x, y, z, radius, volume, ax, ay, az */
   int dimension;                /**< 2: disks in the plane x, y, tensors have xx, yy, xy; 0 or 3: spheres */
   int has_timestep;             /**< whether `timestep` is given */
@@ -799,14 +799,14 @@ typedef struct hypofab_contact_format {
   hypofab_treatment duplicates; /**< of contacts listed twice: refuse, skip (keep one) or keep */
   int duplicate_memory;         /**< MiB for finding them; 0: 32, enough to look at every pair of 3 million */
   hypofab_walls walls;
-  const char *wall_ids;   /**< ids of walls: "0-5,17" */
-  double cell[3];         /**< lengths of the periodic cell; 0: not periodic, or told by the file [length] */
-  double volume;          /**< of the sample, for the void ratio; 0: of the cell, or told by the file [length^3] */
-  int has_box;            /**< only contacts inside a box */
-  double box[6];          /**< x, y, z from, x, y, z to [length] */
-  int has_sphere;         /**< only contacts inside a sphere */
-  double sphere[4];       /**< centre, radius [length] */
-  int threads;            /**< that parse the file; 0: as many as are there, up to 4. Results do not depend on it */
+  const char *wall_ids;      /**< ids of walls: "0-5,17" */
+  double cell[3];            /**< lengths of the periodic cell; 0: not periodic, or told by the file [length] */
+  double volume;             /**< of the sample, for the void ratio; 0: of the cell, or told by the file [length^3] */
+  int has_box;               /**< only contacts inside a box */
+  double box[6];             /**< x, y, z from, x, y, z to [length] */
+  int has_sphere;            /**< only contacts inside a sphere */
+  double sphere[4];          /**< centre, radius [length] */
+  int threads;               /**< that parse the file; 0: as many as are there, up to 4. Results do not depend on it */
   hypofab_progress progress; /**< may be NULL */
   void *progress_user;       /**< handed to it */
 } hypofab_contact_format;
@@ -828,13 +828,48 @@ typedef struct hypofab_contact_report {
 } hypofab_contact_report;
 
 /**
- * @brief Fabric of a contact list: text, plain or gzip, streamed.
- * @param path   the file
+ * @brief Fabric of a contact file, streamed: memory grows with the number of particles, not with that of contacts.
+ * @param path   the file: text, NumPy or legacy VTK, plain or compressed by gzip or zstd
  * @param format NULL for the defaults
- * @param fabric filled
+ * @param fabric filled; of two dimensions when the format says so
  * @return HYPOFAB_BAD_FILE with file, line, column and what was expected in the message
  */
 hypofab_status hypofab_fabric_read(const char *path, const hypofab_contact_format *format, hypofab_fabric *fabric);
+
+/** What the fabric needs of the contacts of one or more files. Exact: parts merged in any order give the same bits. */
+typedef struct hypofab_fabric_sum hypofab_fabric_sum;
+
+/** What a particle file and the reading tell beside the fabric. */
+typedef struct hypofab_sample {
+  double volume;       /**< of the sample; in two dimensions an area; NaN when not known [length^3] */
+  double solid_volume; /**< of all particles; NaN when the particle file has no radii or volumes [length^3] */
+  double void_ratio;   /**< volume/solid_volume - 1, overlaps not taken off; NaN when not known, or with a region */
+  hypofab_contact_report report; /**< of all parts together */
+} hypofab_sample;
+
+/** Sum a contact file. Arguments and errors as hypofab_fabric_read; *sum is to be freed, and NULL on failure. */
+hypofab_status hypofab_fabric_sum_read(const char *path, const hypofab_contact_format *format,
+                                       hypofab_fabric_sum **sum);
+
+/**
+ * @brief Add the contacts of another part of the same sample.
+ *
+ * Parts with a particle file must have the same one. Contacts listed in two parts are not found out.
+ * @return HYPOFAB_BAD_ARGUMENT when the parts do not belong together; nothing has changed then
+ */
+hypofab_status hypofab_fabric_sum_merge(hypofab_fabric_sum *sum, const hypofab_fabric_sum *part);
+
+/** Write a sum to a file, to be merged later; whole or not at all. */
+hypofab_status hypofab_fabric_sum_write(const hypofab_fabric_sum *sum, const char *path);
+
+/** Read what hypofab_fabric_sum_write has written. */
+hypofab_status hypofab_fabric_sum_load(const char *path, hypofab_fabric_sum **sum);
+
+/** Fabric and sample of a sum; sample may be NULL. */
+hypofab_status hypofab_fabric_sum_result(const hypofab_fabric_sum *sum, hypofab_fabric *fabric, hypofab_sample *sample);
+
+/** Free a sum; NULL is allowed. */
+void hypofab_fabric_sum_free(hypofab_fabric_sum *sum);
 
 /** Fabric from a given fabric tensor N (trace 1 within 0.02, positive semi-definite). */
 hypofab_status hypofab_fabric_from_tensor(const double N[6], hypofab_fabric *fabric);

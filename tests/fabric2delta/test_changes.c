@@ -111,9 +111,9 @@ static void refuse_after(const char *text, const char *reason) {
 static void test_refusals(void **state) {
   (void)state;
   refuse_after("nx ny nz\n1 0 0\n", "id1 and id2");
-  refuse_after(HEADER "1 2 0 0 0 1 0 0\n2 1 0 0 0 1 0 0\n", "particles 2 and 1"); /* a persisting one */
-  refuse_after(HEADER "7 8 0 0 0 1 0 0\n8 7 0 0 0 1 0 0\n", "particles 7 and 8"); /* a gained one */
-  refuse_after(HEADER "1 2 0 0 0 1 0 0\n1 5 0 0 0 1 1 0\n", ":3:");               /* not a unit normal */
+  refuse_after(HEADER "1 2 0 0 0 1 0 0\n2 1 0 0 0 1 0 0\n", ":3: column 2 (id2): '1'"); /* a persisting one */
+  refuse_after(HEADER "7 8 0 0 0 1 0 0\n8 7 0 0 0 1 0 0\n", ":3: column 2 (id2): '7'"); /* a gained one */
+  refuse_after(HEADER "1 2 0 0 0 1 0 0\n1 5 0 0 0 1 1 0\n", ":3:");                     /* not a unit normal */
   hypofab_snapshot *snapshot;
   assert_int_equal(hypofab_snapshot_read(in_folder("missing.txt"), NULL, 0, &snapshot), HYPOFAB_BAD_FILE);
   assert_int_equal(hypofab_snapshot_read(NULL, NULL, 0, &snapshot), HYPOFAB_BAD_ARGUMENT);
