@@ -75,7 +75,7 @@ hypofab_status contact_sum_fabric(const contact_sum *sum, int64_t particles, hyp
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "no contact is left to make a fabric of; expected at least one");
   double tensor[6];
   for (int i = 0; i < 6; i++) tensor[i] = exact_sum_value(&sum->sums[i]) / (double)sum->contacts;
-  int info = hypofab_fabric_describe(sum->plane, tensor, fabric);
+  int info = sum->plane ? hypofab_fabric_describe_plane(tensor, fabric) : hypofab_fabric_describe(tensor, fabric);
   if (info) return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "fabric: LAPACK dsyev returned info = %d", info);
 
   const int64_t named = (int64_t)sum->particles.used;

@@ -10,7 +10,7 @@ module hypofab_fabric
   implicit none
   private
   public :: fabric_t, initial_delta_t
-  public :: add_normals, describe_fabric, count_coordination, map_to_delta
+  public :: add_normals, describe_fabric, describe_plane_fabric, count_coordination, map_to_delta
   public :: find_principal, principal_axes
 
   real(wp), parameter :: unit_tensor(6) = [1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
@@ -68,15 +68,10 @@ contains
 
   !> Deviatoric fabric F = 15/2 (N - 1/3 1) (paper Eq. 3), anisotropy a = sqrt(3/2 F:F) (Eq. 4), principal values and
   !> directions of a fabric tensor. Counts are set to 0 (not known), coordination numbers to NaN.
-  !>
-  !> In two dimensions F = 4 (N - 1/2 1) with xx, yy, xy alone (Kanatani 1984) and a = sqrt(1/2 F:F), the amplitude of
-  !> E(phi) = 1/(2 pi) (1 + a cos 2(phi - phi_a)); the third principal value is 0 and belongs to z.
-  !> @param plane   not 0: two dimensions
   !> @param tensor  (6): fabric tensor N, finite
   !> @param fabric  filled
   !> @return 0, or LAPACK's info when the eigenvalues could not be found
-  function describe_fabric(plane, tensor, fabric) result(info) bind(C, name='hypofab_fabric_describe')
-    integer(c_int), value, intent(in) :: plane
+  function describe_fabric(tensor, fabric) result(info) bind(C, name='hypofab_fabric_describe')
     real(wp), intent(in) :: tensor(6)
     type(fabric_t), intent(out) :: fabric
     integer(c_int) :: info
@@ -87,15 +82,22 @@ contains
     fabric%mechanical_coordination_number = ieee_value(1.0_wp, ieee_quiet_nan)
     fabric%rattlers = -1
     fabric%fabric = tensor
-    if (plane /= 0) then
-      fabric%deviatoric_fabric = 4.0_wp * (tensor - [0.5_wp, 0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
-      fabric%anisotropy = sqrt(0.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
-    else
-      fabric%deviatoric_fabric = 7.5_wp * (tensor - unit_tensor / 3.0_wp)
-      fabric%anisotropy = sqrt(1.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
-    end if
+    fabric%deviatoric_fabric = 7.5_wp * (tensor - unit_tensor / 3.0_wp)
+    fabric%anisotropy = sqrt(1.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
     call find_principal(tensor, fabric%principal_values, fabric%principal_directions, info)
   end function describe_fabric
+
+  !> The same in two dimensions: F = 4 (N - 1/2 1) with xx, yy, xy alone (Kanatani 1984) and a = sqrt(1/2 F:F), the
+  !> amplitude of E(phi) = 1/(2 pi) (1 + a cos 2(phi - phi_a)). The third principal value is 0 and belongs to z.
+  function describe_plane_fabric(tensor, fabric) result(info) bind(C, name='hypofab_fabric_describe_plane')
+    real(wp), intent(in) :: tensor(6)
+    type(fabric_t), intent(out) :: fabric
+    integer(c_int) :: info
+
+    info = describe_fabric(tensor, fabric)
+    fabric%deviatoric_fabric = 4.0_wp * (tensor - [0.5_wp, 0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+    fabric%anisotropy = sqrt(0.5_wp) * frobenius_norm(fabric%deviatoric_fabric)
+  end function describe_plane_fabric
 
   !> Coordination number 2 N_c/N_p (paper Eq. 1) and mechanical coordination number (2 N_c - N_1)/(N_p - N_0 - N_1)
   !> (Thornton 2000), which leaves out particles with no or one contact. NaN where a denominator vanishes. A contact

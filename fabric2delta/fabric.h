@@ -10,8 +10,11 @@
 /** Add n (x) n of a block of n normals (three numbers each) to six running sums. */
 void hypofab_fabric_add_normals(int n, const double *normals, double sums[6]);
 
-/** F, a, principal values and directions of a fabric tensor, in two dimensions if `plane`; 0, or LAPACK's info. */
-int hypofab_fabric_describe(int plane, const double tensor[6], hypofab_fabric *fabric);
+/** F, a, principal values and directions of a fabric tensor; 0, or LAPACK's info. */
+int hypofab_fabric_describe(const double tensor[6], hypofab_fabric *fabric);
+
+/** The same in two dimensions. */
+int hypofab_fabric_describe_plane(const double tensor[6], hypofab_fabric *fabric);
 
 /** Set counts and coordination numbers; none < 0: contacts per particle are not known. */
 void hypofab_fabric_count_coordination(int64_t contacts, int64_t ends, int64_t particles, int64_t none, int64_t one,

@@ -30,7 +30,7 @@ hypofab_status hypofab_fabric_from_tensor(const double N[6], hypofab_fabric *fab
                         trace, trace_tolerance);
 
   hypofab_fabric described;
-  int info = hypofab_fabric_describe(0, N, &described);
+  int info = hypofab_fabric_describe(N, &described);
   if (info) return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "fabric tensor N: LAPACK dsyev returned info = %d", info);
   if (described.principal_values[2] < -eigenvalue_tolerance)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT,

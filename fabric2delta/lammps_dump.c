@@ -105,7 +105,10 @@ hypofab_status lammps_dump_head(lines *input, const char *kind, const hypofab_co
     if (!more && format->has_timestep)
       return hypofab_fail(HYPOFAB_BAD_FILE, "%s: no time step %lld; the last one is %lld", input->path,
                           (long long)format->timestep, (long long)head->timestep);
-    if (!more || !lammps_dump_begins(input->text)) return refuse(input, "a line 'ITEM: ...'");
+    if (!more)
+      return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the file ends; expected a line 'ITEM: ...' of its head",
+                          input->path, (long long)input->number);
+    if (!lammps_dump_begins(input->text)) return refuse(input, "a line 'ITEM: ...'");
     if ((status = read_item(input, kind, format->dimension == 2, head, &complete))) return status;
     if (!complete) continue;
     if (head->rows < 0) status = refuse(input, "'ITEM: NUMBER OF ...' before the names of the columns");
