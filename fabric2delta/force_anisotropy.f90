@@ -79,20 +79,17 @@ contains
     of_four = 1.0_wp / (dimension * (dimension + 2))
     of_six = of_four / (dimension + 4)
     brief = unit_tensor(dimension) / dimension + 2.0_wp * of_four * (p + q - t) + t / dimension
-    full = brief + of_six * (twice_over(p, q) - twice_over(p, t)) + 2.0_wp * of_four * symmetric_product(t, p)
+    full = brief + of_six * (twice_over(dimension, p, q) - twice_over(dimension, p, t)) + 2.0_wp * of_four * symmetric_product(t, p)
     full = full * dimension / sum(full(1:3))
     brief = brief * dimension / sum(brief(1:3))
-
-  contains
-
-    !> What the fifteen pairings leave of a:nn b:nn nn for traceless a and b.
-    pure function twice_over(a, b) result(c)
-      real(wp), intent(in) :: a(6), b(6)
-      real(wp) :: c(6)
-      c = 2.0_wp * double_contraction(a, b) * unit_tensor(dimension) + &
-          8.0_wp * symmetric_product(a, b)
-    end function twice_over
-
   end subroutine predict_stress
+
+  !> What the fifteen pairings leave of a:nn b:nn nn for traceless a and b.
+  pure function twice_over(dimension, a, b) result(c)
+    integer, intent(in) :: dimension
+    real(wp), intent(in) :: a(6), b(6)
+    real(wp) :: c(6)
+    c = 2.0_wp * double_contraction(a, b) * unit_tensor(dimension) + 8.0_wp * symmetric_product(a, b)
+  end function twice_over
 
 end module hypofab_force_anisotropy
