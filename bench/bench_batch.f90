@@ -6,7 +6,7 @@
 program bench_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t
   use, intrinsic :: iso_fortran_env, only: int64
-  use umat_batch, only: update_group
+  use umat_batch, only: update_points
   use bench_statistics, only: median
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props
@@ -84,7 +84,7 @@ contains
     end do
   end subroutine make_points
 
-  !> Mean cost of a scalar rate [ns].
+  !> Cost of a scalar rate [ns]: like every time here the best of many, since others use the machine too.
   subroutine time_rates(cost)
     real(wp), intent(out) :: cost
     type(state_type) :: rate, states(n_points)
@@ -96,15 +96,16 @@ contains
       d(:, k) = directions(k, :)
     end do
     sink = 0.0_wp
-    call system_clock(began, ticks)
+    cost = huge(cost)
     do j = 1, 200
+      call system_clock(began, ticks)
       do k = 1, n_points
         call state_rate(m, states(k), d(:, k), rate, branch, status)
         sink = sink + rate%stress(1)
       end do
+      call system_clock(ended)
+      cost = min(cost, 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / n_points)
     end do
-    call system_clock(ended)
-    cost = 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / (200 * n_points)
     if (abs(sink) > huge(sink)) write (*, *) sink ! keeps the loop
   end subroutine time_rates
 
@@ -130,7 +131,7 @@ contains
     evaluations = 0
     scalar = 0
     do k = 1, n_points, group
-     call update_group(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
+    call update_points(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
                         stride, points%stress(k, 1), points%delta(k, 1), points%void_ratio(k), strain(k, 1), &
                         status(k), evaluations, scalar)
     end do

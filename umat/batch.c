@@ -32,6 +32,9 @@ static hypofab_status check(const hypofab_material *material, const hypofab_poin
   return HYPOFAB_OK;
 }
 
+/* Points that a thread does at a time. */
+enum { GROUP = 256 };
+
 /* What a part of the points came to. */
 typedef struct tally {
   size_t failed, first_failed;
@@ -42,10 +45,10 @@ typedef struct tally {
 /* Points first to first + n - 1, a group. */
 static void update_group(int instructions, const hypofab_material *material, const hypofab_update_options *options,
                          const hypofab_points *points, size_t first, int n, tally *done) {
-  int status[BATCH_GROUP];
-  hypofab_update_group(material, &options->tolerance, &options->max_evaluations, instructions, n,
-                       (int64_t)points->stride, points->stress + first, points->delta ? points->delta + first : NULL,
-                       points->void_ratio + first, points->strain + first, status, &done->evaluations, &done->scalar);
+  int status[GROUP];
+  hypofab_update_points(material, &options->tolerance, &options->max_evaluations, instructions, n,
+                        (int64_t)points->stride, points->stress + first, points->delta ? points->delta + first : NULL,
+                        points->void_ratio + first, points->strain + first, status, &done->evaluations, &done->scalar);
   for (int i = 0; i < n; i++) {
     if (points->status) points->status[first + (size_t)i] = status[i];
     if (!status[i]) continue;
@@ -66,7 +69,7 @@ hypofab_status hypofab_update_batch(const hypofab_material *material, const hypo
   if (options && options->max_evaluations > 0) wanted.max_evaluations = options->max_evaluations;
 
   const int instructions = hypofab_batch_best_instructions();
-  const int64_t groups = (int64_t)((points->count + BATCH_GROUP - 1) / BATCH_GROUP);
+  const int64_t groups = (int64_t)((points->count + GROUP - 1) / GROUP);
   tally all = {.first_failed = points->count};
 #ifdef _OPENMP
   if (threads < 1) threads = 1;
@@ -80,8 +83,8 @@ hypofab_status hypofab_update_batch(const hypofab_material *material, const hypo
 #pragma omp for schedule(dynamic, 4)
 #endif
     for (int64_t group = 0; group < groups; group++) {
-      const size_t first = (size_t)group * BATCH_GROUP, left = points->count - first;
-      update_group(instructions, material, &wanted, points, first, left < BATCH_GROUP ? (int)left : BATCH_GROUP, &mine);
+      const size_t first = (size_t)group * GROUP, left = points->count - first;
+      update_group(instructions, material, &wanted, points, first, left < GROUP ? (int)left : GROUP, &mine);
     }
 #ifdef _OPENMP
 #pragma omp critical(hypofab_batch)

@@ -1,4 +1,4 @@
-# Many points side by side: batch_kernel.F90 once per instruction set, a choice between them at run time, OpenMP on request.
+# Many points side by side: batch_begin.F90 and others once per instruction set, a choice between them at run time, OpenMP on request.
 find_package(OpenMP COMPONENTS C)
 
 add_library(hypofab_batch_lanes OBJECT batch_lanes.f90)
@@ -6,12 +6,18 @@ target_link_libraries(hypofab_batch_lanes PRIVATE hypofab_flags)
 
 # The vectoriser selects where Fortran branches only if selecting traps no exception; parentheses cost it nothing to keep,
 # but it does not look through them.
-set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapping-math -fno-protect-parens -fno-tree-pre)
+set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapping-math -fno-protect-parens -fno-tree-pre
+                   -Wno-unused-function)
 
-# add_kernel(NAME OPTION...): the kernel as the module umat_batch_NAME.
+# add_kernel(NAME OPTION...): the kernel as the modules umat_batch_begin_NAME, umat_batch_path_NAME, ...
+set(kernel_parts begin path rate step)
 function(add_kernel name)
-  add_library(hypofab_batch_${name} OBJECT batch_kernel.F90)
-  target_compile_definitions(hypofab_batch_${name} PRIVATE HYPOFAB_BATCH_KERNEL=umat_batch_${name})
+  add_library(hypofab_batch_${name} OBJECT)
+  foreach(part ${kernel_parts})
+    target_sources(hypofab_batch_${name} PRIVATE batch_${part}.F90)
+    string(TOUPPER ${part} macro)
+    target_compile_definitions(hypofab_batch_${name} PRIVATE HYPOFAB_BATCH_${macro}=umat_batch_${part}_${name})
+  endforeach()
   target_compile_options(hypofab_batch_${name} PRIVATE ${kernel_options} ${ARGN})
   target_link_libraries(hypofab_batch_${name} PRIVATE hypofab_flags)
   target_sources(hypofab PRIVATE $<TARGET_OBJECTS:hypofab_batch_${name}>)
@@ -37,8 +43,11 @@ target_link_libraries(hypofab_batch PRIVATE hypofab_model hypofab_batch_lanes ${
 # CMake does not see that a part uses modules of another target: rebuild it when their sources change.
 set(used batch_lanes.f90 kinds.F90 status.f90 material.f90 tableau.f90)
 list(TRANSFORM used PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
-set_source_files_properties(batch_kernel.F90 PROPERTIES OBJECT_DEPENDS "${used}")
-list(APPEND used ${CMAKE_CURRENT_SOURCE_DIR}/batch_kernel.F90 ${CMAKE_CURRENT_SOURCE_DIR}/rate.f90
+set(kernel_sources ${kernel_parts})
+list(TRANSFORM kernel_sources REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/batch_\\1.F90")
+set_source_files_properties(${kernel_sources} PROPERTIES OBJECT_DEPENDS
+                                                         "${used};${CMAKE_CURRENT_SOURCE_DIR}/batch_series.inc")
+list(APPEND used ${kernel_sources} ${CMAKE_CURRENT_SOURCE_DIR}/rate.f90
      ${CMAKE_CURRENT_SOURCE_DIR}/update.f90)
 set_source_files_properties(batch.F90 PROPERTIES OBJECT_DEPENDS "${used}")
 foreach(part hypofab_batch_lanes ${kernels} hypofab_batch)

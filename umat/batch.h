@@ -1,6 +1,6 @@
 /**
  * @file batch.h
- * @brief Between hypofab_update_batch (batch.c) and the update of a group of points (batch.F90).
+ * @brief Between hypofab_update_batch (batch.c) and the update of points side by side (batch.F90).
  */
 #ifndef HYPOFAB_UMAT_BATCH_H
 #define HYPOFAB_UMAT_BATCH_H
@@ -16,13 +16,9 @@ enum { BATCH_PORTABLE, BATCH_AVX2, BATCH_AVX512 };
 /** The best instruction set of this processor. */
 __attribute__((visibility("default"))) int hypofab_batch_best_instructions(void);
 
-/** Most points of a group: n_lanes of batch_lanes.f90. */
-enum { BATCH_GROUP = 128 };
-
-/** Update a group of points by a given instruction set, which the processor must have: batch.F90, which describes it.
- */
-void hypofab_update_group(const hypofab_material *material, const double *tolerance, const int *max_evaluations,
-                          int instructions, int n, int64_t stride, double *stress, double *delta, double *void_ratio,
-                          const double *strain, int *status, int64_t *evaluations, int64_t *scalar);
+/** Update points by a given instruction set, which the processor must have: batch.F90, which describes it. */
+void hypofab_update_points(const hypofab_material *material, const double *tolerance, const int *max_evaluations,
+                           int instructions, int n, int64_t stride, double *stress, double *delta, double *void_ratio,
+                           const double *strain, int *status, int64_t *evaluations, int64_t *scalar);
 
 #endif

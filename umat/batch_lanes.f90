@@ -1,14 +1,16 @@
-!> Where the numbers of a material point sit while many points are integrated side by side (batch.f90, batch_kernel.F90).
+!> Where the numbers of a material point sit while many points are integrated side by side (batch.F90, batch_step.F90).
 !>
 !> A point occupies a lane; lanes(lane, field) keeps each field of neighbouring lanes together, as vector registers want.
 module umat_batch_lanes
-  use, intrinsic :: iso_fortran_env, only: int64
+  use, intrinsic :: iso_fortran_env, only: int64, real64
   implicit none
   public
 
-  !> Lanes of a group, and lanes that a kernel works on at once: a multiple of the widest vector register. No result
-  !> depends on them.
-  integer, parameter :: n_lanes = 136, width = 16
+  !> Points that go through the rounds together, so many that what is known of them stays in the first cache; and lanes
+  !> that the kernel works on at once, a multiple of the widest vector register. No result depends on them.
+  integer, parameter :: most_points = 64, width = 16
+  !> Lanes, a few more so that the fields of a point fall into different sets of the cache.
+  integer, parameter :: n_lanes = most_points + 8
 
   !> Fields. Tensors take six; those of delta and void ratio belong to the start of the present segment, a part of the
   !> increment on one branch.
@@ -25,14 +27,25 @@ module umat_batch_lanes
   integer, parameter :: l_trace = 34 !< trace of the direction
   integer, parameter :: l_smallest = 35 !< |stress| below which the path is on its way to zero
   integer, parameter :: l_evaluations = 36, l_refused = 37 !< rate evaluations, steps refused
-  integer, parameter :: l_exponent = 38, l_amplitude = 39 !< the speed of the path is amplitude rho^exponent
-  integer, parameter :: n_fields = 39
+  integer, parameter :: l_exponent = 38, l_amplitude = 39 !< the speed of the path is amplitude rho^exponent; straight: the size of the
+  !                                                                         direction's part across is rho^exponent
+  integer, parameter :: n_fields = 45
+  integer, parameter :: l_speed = 40, l_node_along = 41, l_node_across = 42, l_rho_chi = 43, l_rho = 44, l_rho_beta = 45 !< the path
+  !                     at the step's start: speed, components of the direction of delta, rho and its powers
 
-  !> Tags: kind of path, as in delta_path.f90, and what became of an attempted step. As wide as a field, so that they fill
+  !> Tags: kind of path, as in delta_path.f90, and what became of an attempted step, and 1 for a path that is long
+  !> against delta, for which the series of the path will not reach. As wide as a field, so that they fill
   !> masks without conversion.
-  integer, parameter :: t_kind = 1, t_outcome = 2, n_tags = 2
+  integer, parameter :: t_kind = 1, t_outcome = 2, t_far = 3, n_tags = 3
   integer(int64), parameter :: kind_fixed = 0_int64, kind_straight = 1_int64, kind_axis = 2_int64, kind_plane = 3_int64
   !> special: the scalar update must decide; begin: the segment is to begin.
   integer(int64), parameter :: outcome_going = 0_int64, outcome_segment_done = 1_int64, outcome_special = 2_int64, &
                                outcome_begin = 3_int64
+
+  !> Between the no and the yes of a mask.
+  real(real64), parameter :: half = 0.5_real64
+  !> Stands for zero under a logarithm or in a divisor.
+  real(real64), parameter :: nothing = 1.0e-290_real64
+  !> Reach of the series in batch_series.inc.
+  real(real64), parameter :: reach_of_exp = 0.25_real64, reach_of_log = 0.125_real64
 end module umat_batch_lanes
