@@ -12,6 +12,7 @@
 
 /* Smallest ratio of pivots, rows scaled to 1, that still counts as a regular control. */
 static const double singular = 1e-12;
+static const char singular_text[] = "the prescribed rates are singular at this state";
 
 static double dot(const double a[6], const double b[6]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
@@ -28,16 +29,53 @@ typedef struct solved {
   double rate[6];       /* right-hand sides of the conditions */
 } solved;
 
-static hypofab_status solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
-                            solved *s) {
-  hypofab_status status = hypofab_linear_parts(material, state, s->stiffness, s->jump, s->direction, &s->model);
-  if (status) return status;
-  course_rates(step, state->stress, s->rate);
+/* The strain component that a condition prescribes alone; -1: it does something else. */
+static int single_strain(const hypofab_step *step, int i) {
+  int component = -1;
+  for (int j = 0; j < 6; j++) {
+    if (step->on_stress[i][j] != 0.0) return -1;
+    if (step->on_strain[i][j] == 0.0) continue;
+    if (component >= 0) return -1;
+    component = j;
+  }
+  return component;
+}
 
-  /* S = A M + B and the right-hand sides c and A jump, rows scaled: stress and strain conditions differ by 1e5. */
-  double matrix[36], rhs[12];
+/* Two right-hand sides through the factors of a matrix whose rows lie 6 numbers apart. A library call for so few
+ * numbers costs more than the numbers. */
+static void substitute(const double *factors, int n, double x[][2]) {
+  for (int k = 0; k < 2; k++) {
+    for (int i = 1; i < n; i++)
+      for (int j = 0; j < i; j++) x[i][k] -= factors[6 * i + j] * x[j][k];
+    for (int i = n - 1; i >= 0; i--) {
+      for (int j = i + 1; j < n; j++) x[i][k] -= factors[6 * i + j] * x[j][k];
+      x[i][k] /= factors[7 * i];
+    }
+  }
+}
+
+/*
+ * S = A M + B and the right-hand sides c and A jump. Strain components that a condition prescribes alone are known and
+ * go to the right; the rest is scaled, for stress and strain conditions differ by 1e5.
+ */
+static hypofab_status solve_conditions(const hypofab_step *step, solved *s) {
+  int known[6], column[6], n_columns = 0, is_known[6] = {0};
   for (int i = 0; i < 6; i++) {
-    double row[6], along_jump = 0.0, largest = 0.0;
+    known[i] = single_strain(step, i);
+    if (known[i] < 0) continue;
+    if (is_known[known[i]]) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d repeats another one", i + 1);
+    is_known[known[i]] = 1;
+    s->reversal[known[i]] = s->rate[i] / step->on_strain[i][known[i]];
+    s->response[known[i]] = 0.0;
+  }
+  for (int j = 0; j < 6; j++)
+    if (!is_known[j]) column[n_columns++] = j;
+  double matrix[36], rhs[6][2];
+  int n = 0;
+  for (int i = 0; i < 6; i++) {
+    if (known[i] >= 0) continue;
+    double row[6], left = s->rate[i], along_jump = 0.0, largest = 0.0;
+    int is_empty = 1;
     for (int j = 0; j < 6; j++) row[j] = step->on_strain[i][j];
     for (int k = 0; k < 6; k++) {
       const double a = step->on_stress[i][k];
@@ -45,31 +83,42 @@ static hypofab_status solve(const hypofab_material *material, const hypofab_stat
       for (int j = 0; j < 6; j++) row[j] += a * s->stiffness[6 * k + j];
       along_jump += a * s->jump[k];
     }
-    for (int j = 0; j < 6; j++)
-      if (fabs(row[j]) > largest) largest = fabs(row[j]);
-    if (largest == 0.0)
-      return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
-    for (int j = 0; j < 6; j++) matrix[6 * i + j] = row[j] / largest;
-    rhs[2 * i] = s->rate[i] / largest;
-    rhs[2 * i + 1] = along_jump / largest;
+    for (int j = 0; j < 6; j++) {
+      is_empty = is_empty && row[j] == 0.0;
+      if (is_known[j])
+        left -= row[j] * s->reversal[j];
+      else
+        largest = fmax(largest, fabs(row[j]));
+    }
+    if (is_empty) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "condition %d of the step prescribes nothing", i + 1);
+    if (!(largest > 0.0)) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "%s", singular_text);
+    for (int j = 0; j < n_columns; j++) matrix[6 * n + j] = row[column[j]] / largest;
+    rhs[n][0] = left / largest;
+    rhs[n][1] = along_jump / largest;
+    n++;
   }
+  if (n == 0) return HYPOFAB_OK;
   size_t order[6];
-  gsl_permutation permutation = {6, order};
-  gsl_matrix_view S = gsl_matrix_view_array(matrix, 6, 6);
+  gsl_permutation permutation = {(size_t)n, order};
+  gsl_matrix_view S = gsl_matrix_view_array_with_tda(matrix, (size_t)n, (size_t)n, 6);
   int sign;
   gsl_linalg_LU_decomp(&S.matrix, &permutation, &sign);
-  double smallest = INFINITY;
-  for (int i = 0; i < 6; i++)
-    if (!(fabs(matrix[7 * i]) > smallest)) smallest = fabs(matrix[7 * i]);
-  if (!(smallest > singular))
-    return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the prescribed rates are singular at this state");
-  double solution[12]; /* both at once: a library call for six numbers costs more than the numbers */
-  for (int i = 0; i < 6; i++) solution[2 * i] = rhs[2 * order[i]], solution[2 * i + 1] = rhs[2 * order[i] + 1];
-  gsl_matrix_view X = gsl_matrix_view_array(solution, 6, 2);
-  gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasUnit, 1.0, &S.matrix, &X.matrix);
-  gsl_blas_dtrsm(CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, 1.0, &S.matrix, &X.matrix);
-  for (int i = 0; i < 6; i++) s->reversal[i] = solution[2 * i], s->response[i] = solution[2 * i + 1];
+  for (int i = 0; i < n; i++)
+    if (!(fabs(matrix[7 * i]) > singular)) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "%s", singular_text);
+  double x[6][2];
+  for (int i = 0; i < n; i++) x[i][0] = rhs[order[i]][0], x[i][1] = rhs[order[i]][1];
+  substitute(matrix, n, x);
+  for (int i = 0; i < n; i++) s->reversal[column[i]] = x[i][0], s->response[column[i]] = x[i][1];
   return HYPOFAB_OK;
+}
+
+static hypofab_status solve(const hypofab_material *material, const hypofab_state *state, const hypofab_step *step,
+                            solved *s) {
+  hypofab_status status = hypofab_linear_parts(material, state, s->stiffness, s->jump, s->direction, &s->model);
+  if (status) return status;
+  course_rates(step, state->stress, s->rate);
+
+  return solve_conditions(step, s);
 }
 
 /* g = det(loading)/det(reversal); see control_choose_branch. */

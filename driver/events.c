@@ -31,11 +31,17 @@ int event_is_between(const event *event, double before, double after) {
   return (before < 0.0 && after >= 0.0) || (before > 0.0 && after <= 0.0);
 }
 
+double event_branch_value(const event *event, const test_state *state, double along) {
+  const double *d = state->material.delta;
+  const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5]));
+  return (event->branch == HYPOFAB_REVERSAL ? -along : along) * size / event->observer->material->R;
+}
+
 double event_branch(const event *event, double time, const test_state *state) {
   (void)time;
   control_rates rates;
   if (control_solve(event->observer->material, &state->material, event->step, event->branch, &rates)) return 1.0;
-  return event->branch == HYPOFAB_REVERSAL ? -rates.along : rates.along;
+  return event_branch_value(event, state, rates.along);
 }
 
 /* What GSL's root finder needs to evaluate an event at a time. */
@@ -74,7 +80,7 @@ hypofab_status event_locate(integrator *it, const event *event, double from, con
     root = gsl_root_fsolver_root(solver);
     lower = gsl_root_fsolver_x_lower(solver);
     upper = gsl_root_fsolver_x_upper(solver);
-    if (upper - lower <= 4.0 * GSL_DBL_EPSILON * fabs(to)) break;
+    if (upper - lower <= fmax(4.0 * GSL_DBL_EPSILON * fabs(to), event->accuracy * (to - from))) break;
   }
   gsl_root_fsolver_free(solver);
   if (!s.status) value_at(root, &s);

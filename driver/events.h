@@ -14,7 +14,8 @@ typedef struct event {
   const hypofab_step *step; /**< of event_branch */
   hypofab_branch branch;    /**< of event_branch */
   hypofab_mark mark;
-  double origin; /**< of event_distance */
+  double origin;   /**< of event_distance */
+  double accuracy; /**< find it to this part of the integrator's step; 0: to the rounding of time */
 } event;
 
 /** Zero where the quantity of event->mark has its value. */
@@ -26,8 +27,12 @@ double event_distance(const event *event, double time, const test_state *state);
 /** Do these values at two states enclose a zero? A jump, as of an angle from 90 to -90 degrees, is none. */
 int event_is_between(const event *event, double before, double after);
 
-/** Zero where the loading direction leaves the branch; positive on it. */
+/** Zero where the loading direction leaves the branch; positive on it: delta:D/(R |D|), which is nearly linear in time
+ * where the angle between both jumps. */
 double event_branch(const event *event, double time, const test_state *state);
+
+/** The same where control_solve has been asked already; along: of its result. */
+double event_branch_value(const event *event, const test_state *state, double along);
 
 /**
  * @brief Locate an event that lies between two states, by Brent's method on the integrator itself: no interpolation.

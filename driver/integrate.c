@@ -51,6 +51,8 @@ int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   it->n_evaluations++;
   it->obstacle = control_solve(it->material, &state->material, it->step, it->branch, &solved);
   if (it->obstacle) return 1; /* recoverable: a smaller step may stay where rates exist */
+  it->evaluated = *state;
+  it->along = solved.along;
   memcpy(rate->strain, solved.stretching, sizeof rate->strain);
   memcpy(rate->material.stress, solved.stress_rate, sizeof solved.stress_rate);
   hypofab_delta_rate(it->material, state->material.delta, solved.stretching, it->branch, rate->material.delta);
@@ -214,6 +216,14 @@ hypofab_status integrator_reach(integrator *it, double from, const test_state *s
   *state = *start;
   for (double time = from; !status && time < to;) status = integrator_advance(it, to, &time, state);
   return status;
+}
+
+double integrator_tolerance(const integrator *it) { return it->tolerance; }
+
+int integrator_knows_along(const integrator *it, const test_state *state, double *along) {
+  if (it->obstacle || memcmp(&it->evaluated, state, sizeof *state) != 0) return 0;
+  *along = it->along;
+  return 1;
 }
 
 void integrator_statistics(const integrator *it, long *steps, long *evaluations) {

@@ -55,6 +55,12 @@ hypofab_status integrator_advance(integrator *it, double stop, double *time, tes
  */
 hypofab_status integrator_reach(integrator *it, double from, const test_state *start, double to, test_state *state);
 
+/** Relative tolerance in force. */
+double integrator_tolerance(const integrator *it);
+
+/** The `along` of control_solve at a state, if the last rates were evaluated there. */
+int integrator_knows_along(const integrator *it, const test_state *state, double *along);
+
 /** Steps taken and rates evaluated since creation. */
 void integrator_statistics(const integrator *it, long *steps, long *evaluations);
 

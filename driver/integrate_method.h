@@ -41,7 +41,9 @@ struct integrator {
   long n_steps, n_evaluations;
   hypofab_status obstacle; /* why the right-hand side last failed */
   int is_fresh;            /* conditions or branch were set since the last start */
-  double before, now;      /* the last step of the integrator went from one to the other */
+  test_state evaluated;    /* where rates were evaluated last, and their `along` */
+  double along;
+  double before, now; /* the last step of the integrator went from one to the other */
   SUNContext context;
   N_Vector y, absolute;
   void *memory; /* of the solver */

@@ -131,9 +131,16 @@ typedef struct place {
   int located; /* the integrator was used to find it and stands elsewhere */
 } place;
 
+/* The branch event at the end of a step; an explicit integrator has evaluated the rates there already. */
+static double branch_at(const run *r, const event *e, double time, const test_state *state) {
+  double along;
+  if (!integrator_knows_along(r->it, state, &along)) return e->value(e, time, state);
+  return event_branch_value(e, state, along);
+}
+
 /* Replace the place by that of an event that comes earlier. */
 static hypofab_status consider(run *r, const event *e, double to, const test_state *end, place *first) {
-  const double after = e->value(e, to, end);
+  const double after = e->value == event_branch ? branch_at(r, e, to, end) : e->value(e, to, end);
   if (e->value == event_branch && after >= 0.0) return HYPOFAB_OK;
   const double before = e->value(e, r->time, &r->state);
   double time = r->time;
@@ -195,6 +202,9 @@ static hypofab_status handle_events(run *r, const hypofab_step *step, schedule *
 /* Integrate a leg whose schedule is known to its end. */
 static hypofab_status integrate_leg(run *r, const hypofab_step *step, schedule *s) {
   event branch = {.value = event_branch, .observer = &r->observer, .step = step};
+  /* The branches answer alike where one turns into the other: a place that is off by a part of a step changes the
+   * stress by the square of it. */
+  branch.accuracy = 0.01 * sqrt(integrator_tolerance(r->it));
   const double longest = course_longest_step(step);
   hypofab_status status = start_segment(r, step, &branch);
   int ended = 0;
