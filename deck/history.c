@@ -109,37 +109,36 @@ static bool grow(study_history *history) {
 
 static hypofab_status take_rows(intake *in, table *data) {
   study_history *history = in->history;
+  table_value row[N_REQUESTS];
   for (;;) {
     bool more;
-    hypofab_status status = table_next(data, &more);
+    hypofab_status status = table_next(data, row, &more);
     if (status || !more) return status;
     if (!grow(history)) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", in->source->path);
     double *time = &history->time[history->n], *value = history->value[history->n];
-    status = table_real(data, 0, "a time", time);
-    if (!status && history->n > 0 && !(*time > time[-1]))
-      status = table_refuse(data, 0, "is not later than the row before", "increasing times");
-    for (int i = 0; i < 6 && !status; ++i) {
-      value[i] = 0;
-      if (in->request[i] < 0) continue;
-      status = table_real(data, in->request[i], "a number", &value[i]);
-      value[i] *= study_quantity_sign(in->study, in->quantity[i]);
+    *time = row[0].real;
+    if (history->n > 0 && !(*time > time[-1]))
+      return table_refuse_next(data, 0, "is not later than the row before", "increasing times");
+    for (int i = 0; i < 6; ++i) {
+      const bool held = i >= in->n_conditions || in->request[i] < 0;
+      value[i] = held ? 0 : study_quantity_sign(in->study, in->quantity[i]) * row[in->request[i]].real;
     }
-    if (status) return status;
     history->n++;
   }
 }
 
 static hypofab_status read_table(intake *in, lines *input) {
-  table_request requests[N_REQUESTS] = {{.role = "time", .name = "time", .required = true}};
+  table_request requests[N_REQUESTS] = {{.role = "time", .name = "time", .expected = "a time", .required = true}};
   for (int i = 0; i < N_PRESCRIBABLE; ++i) {
     const char *name = hypofab_quantity_name(prescribable[i]);
     bool wanted = !in->given->columns;
     for (unsigned k = 0; k < in->given->columns_count; ++k) wanted |= strcmp(in->given->columns[k], name) == 0;
     /* A name with a blank is in no header. */
-    requests[i + 1] = (table_request){name, wanted ? name : " ", wanted && in->given->columns};
+    requests[i + 1] = (table_request){
+        .role = name, .name = wanted ? name : " ", .expected = "a number", .required = wanted && in->given->columns};
   }
   table data;
-  hypofab_status status = table_open(&data, input, 0, "point in time", requests, N_REQUESTS);
+  hypofab_status status = table_open(&data, input, NULL, 0, "point in time", requests, N_REQUESTS);
   if (status) return status;
   status = take_columns(in, &data);
   if (!status) status = take_rows(in, &data);

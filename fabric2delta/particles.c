@@ -61,17 +61,12 @@ static unsigned parts_of(const table *data, bool plane) {
 
 /* -------------------------------------------------------------------- rows */
 
-static hypofab_status refuse_row(const table *data, int k, const char *problem, const char *expected) {
-  const lines *input = data->input;
-  return table_refuse(data, input->text, input->text + input->length, input->number, k, problem, expected);
-}
-
 /* A size that is there must be positive. */
 static hypofab_status check_sizes(const table *data, const table_value *values) {
   static const int sizes[] = {RADIUS, DIAMETER, VOLUME};
   for (int i = 0; i < 3; i++)
     if (data->column[sizes[i]] && !(values[sizes[i]].real > 0.0))
-      return refuse_row(data, sizes[i], "is not positive", data->requests[sizes[i]].expected);
+      return table_refuse_next(data, sizes[i], "is not positive", data->requests[sizes[i]].expected);
   return HYPOFAB_OK;
 }
 
@@ -109,7 +104,7 @@ static hypofab_status enter_id(const table *data, particle_list *list, int64_t i
   const size_t before = list->indices.used;
   if (!id_counts_enter(&list->indices, id)) return out_of_memory(data->input->path);
   return list->indices.used > before ? HYPOFAB_OK
-                                     : refuse_row(data, ID, "stands twice in the list", "one row per particle");
+                                     : table_refuse_next(data, ID, "stands twice in the list", "one row per particle");
 }
 
 static int by_id(const void *left, const void *right) {

@@ -83,6 +83,9 @@ void table_cell(const table *data, const char *line, const char *end, int k, cha
 hypofab_status table_refuse(const table *data, const char *line, const char *end, int64_t number, int k,
                             const char *problem, const char *expected);
 
+/** The same for the row that table_next has read. */
+hypofab_status table_refuse_next(const table *data, int k, const char *problem, const char *expected);
+
 /** Free what table_open reserved. */
 void table_close(table *data);
 

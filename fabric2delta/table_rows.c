@@ -181,3 +181,8 @@ hypofab_status table_next(table *data, table_value *values, bool *more) {
   data->rows++;
   return table_row(data, input->text, input->text + input->length, input->number, values);
 }
+
+hypofab_status table_refuse_next(const table *data, int k, const char *problem, const char *expected) {
+  const lines *input = data->input;
+  return table_refuse(data, input->text, input->text + input->length, input->number, k, problem, expected);
+}
