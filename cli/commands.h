@@ -17,6 +17,12 @@ int cmd_envelope(int argc, char **argv);
 /** Contact fabric of a contact list. */
 int cmd_fabric(int argc, char **argv);
 
+/** Directional stiffnesses of a deck. */
+int cmd_stiffness(int argc, char **argv);
+
+/** The parameter of the weight function that matches directional stiffnesses. */
+int cmd_fit_c(int argc, char **argv);
+
 /** Changes of fabric between snapshots. */
 int cmd_changes(int argc, char **argv);
 /** All fabric and force descriptors of contact lists. */

@@ -40,8 +40,9 @@ static hypofab_status read_particles(const deck_source *source, deck_key key, co
   return HYPOFAB_OK;
 }
 
+/* What is needed to read the list again stays in the state. */
 static hypofab_status read_contacts(const deck_source *source, unsigned index, const deck_delta *given,
-                                    hypofab_fabric *fabric) {
+                                    study_state *state) {
   hypofab_contact_format format = {0};
   if (given->columns) {
     format.id1 = given->columns->id1;
@@ -56,20 +57,19 @@ static hypofab_status read_contacts(const deck_source *source, unsigned index, c
                          "'%s', expected \",\", \";\" or \"\\t\"", given->separator);
     format.separator = given->separator[0];
   }
-  char *particle_file = NULL, *contact_file = deck_path_beside(source, given->contacts);
   hypofab_status status = HYPOFAB_OK;
-  if (!contact_file)
+  state->contact_file = deck_path_beside(source, given->contacts);
+  if (!state->contact_file)
     status = hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
   else if (given->particles)
     status = read_particles(source, deck_key_format("states[%u].delta.particles", index), given->particles, &format,
-                            &particle_file);
+                            &state->particle_file);
+  state->contact_format = format;
   if (!status) {
-    status = hypofab_fabric_read(contact_file, &format, fabric);
+    status = hypofab_fabric_read(state->contact_file, &format, &state->fabric);
     if (status && status < HYPOFAB_NO_MEMORY)
       deck_refuse(source, status, deck_key_format("states[%u].delta.contacts", index), "%s", hypofab_last_message());
   }
-  free(particle_file);
-  free(contact_file);
   return status;
 }
 
@@ -78,7 +78,7 @@ static hypofab_status resolve_fabric(const deck_source *source, unsigned index, 
                                      study_state *state) {
   hypofab_status status;
   if (given->contacts) {
-    status = read_contacts(source, index, given, &state->fabric);
+    status = read_contacts(source, index, given, state);
     if (status) return status;
   } else {
     status = hypofab_fabric_from_tensor(given->fabric, &state->fabric);

@@ -93,6 +93,10 @@ void hypofab_study_free(hypofab_study *study) {
   if (!study) return;
   for (unsigned i = 0; study->tests && i < study->deck->tests_count; ++i) free_test(&study->tests[i]);
   for (unsigned i = 0; study->envelopes && i < study->deck->envelopes_count; ++i) free(study->envelopes[i].series);
+  for (unsigned i = 0; study->states && i < study->deck->states_count; ++i) {
+    free(study->states[i].contact_file);
+    free(study->states[i].particle_file);
+  }
   free(study->tests);
   free(study->envelopes);
   free(study->states);

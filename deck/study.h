@@ -19,6 +19,9 @@ typedef struct study_state {
   hypofab_fabric fabric;
   hypofab_initial_delta map;
   double c; /**< parameter of the weight function */
+  /* The contact list, to be read again; both files NULL when the fabric is not from one. */
+  char *contact_file, *particle_file;
+  hypofab_contact_format contact_format;
 } study_state;
 
 /** Numbers of a table, which hypofab_step.history points to. */

@@ -1,5 +1,6 @@
 #include "deck/json_values.h"
 #include "deck/run.h"
+#include "deck/stiffness.h"
 
 static json_t *row_object(const hypofab_study *study, unsigned test, const hypofab_row *row) {
   json_t *object = json_object();
@@ -18,11 +19,6 @@ static json_t *fabric_object(const study_state *state, const deck_delta *given) 
   json_object_set_new(object, "c", json_number(state->c));
   json_object_set_new(object, "weight", json_number(state->map.weight));
   return object;
-}
-
-/* Secant stiffness q/eps_q from the start of the test: paper 000, Table 4. */
-static double secant_stiffness(const hypofab_row *start, const hypofab_row *end) {
-  return (end->value[HYPOFAB_Q] - start->value[HYPOFAB_Q]) / (end->value[HYPOFAB_EPS_Q] - start->value[HYPOFAB_EPS_Q]);
 }
 
 /* Why a step ended. */
@@ -63,7 +59,7 @@ static json_t *steps_array(const hypofab_study *study, unsigned test, const stud
     json_object_set_new(step, "stop", stop_object(study, given, run, end));
     if (run->cycle.count > 0) json_object_set_new(step, "cycles", json_number(end->value[HYPOFAB_CYCLE]));
     json_object_set_new(step, "end", row_object(study, test, end));
-    json_object_set_new(step, "secant_stiffness", json_number(secant_stiffness(&result->start, end)));
+    json_object_set_new(step, "secant_stiffness", json_number(study_secant_stiffness(&result->start, end)));
     json_array_append_new(array, step);
   }
   return array;

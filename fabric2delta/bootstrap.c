@@ -13,6 +13,7 @@
 
 #include "base/message.h"
 #include "fabric2delta/fabric.h"
+#include "fabric2delta/interval.h"
 
 hypofab_status fabric_sum_describe(const fabric_sum *sum, hypofab_fabric *fabric) {
   double tensor[6];
@@ -89,6 +90,8 @@ int hypofab_bootstrap_replicates(const hypofab_bootstrap *bootstrap) { return bo
 
 int64_t hypofab_bootstrap_units(const hypofab_bootstrap *bootstrap) { return bootstrap->units; }
 
+double hypofab_bootstrap_noise2(const hypofab_bootstrap *bootstrap) { return bootstrap->noise2; }
+
 hypofab_status hypofab_bootstrap_fabric(const hypofab_bootstrap *bootstrap, hypofab_fabric *fabric) {
   if (!bootstrap || !fabric) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "bootstrap: a NULL pointer was given");
   hypofab_status status = fabric_sum_describe(&bootstrap->whole, fabric);
@@ -157,24 +160,22 @@ static hypofab_status collect(const hypofab_bootstrap *bootstrap, int k, double 
   return HYPOFAB_OK;
 }
 
-/* values: sorted in place. */
-static hypofab_interval interval_of(double *values, size_t n, double level) {
-  hypofab_interval interval = {.error = gsl_stats_sd(values, 1, n)};
-  gsl_sort(values, 1, n);
-  interval.lower = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.5 * (1.0 - level));
-  interval.upper = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.5 * (1.0 + level));
-  return interval;
+static hypofab_interval within(hypofab_interval interval, double lower, double upper) {
+  return (hypofab_interval){fmax(interval.lower, lower), fmin(interval.upper, upper), interval.error};
 }
 
-static void summarise(double *columns, size_t n, double level, hypofab_uncertainty *result) {
+static void summarise(double *columns, size_t n, double level, double R, const hypofab_initial_delta *estimate,
+                      hypofab_uncertainty *result) {
   for (int i = 0; i < 6; i++) {
     result->fabric[i] = interval_of(columns + (size_t)i * n, n, level);
     result->deviatoric_fabric[i] = interval_of(columns + (size_t)(6 + i) * n, n, level);
-    result->delta[i] = interval_of(columns + (size_t)(DELTA + i) * n, n, level);
+    double *delta = columns + (size_t)(DELTA + i) * n;
+    const double most = i < 3 ? R : R / M_SQRT2; /* of a component of a tensor of norm R */
+    result->delta[i] = within(interval_about(delta, n, level, estimate->delta[i]), -most, most);
   }
   result->anisotropy = interval_of(columns + ANISOTROPY * n, n, level);
   result->corrected_anisotropy = interval_of(columns + CORRECTED * n, n, level);
-  result->weight = interval_of(columns + WEIGHT * n, n, level);
+  result->weight = within(interval_about(columns + WEIGHT * n, n, level, estimate->weight), 0.0, 1.0);
   double *angles = columns + ANGLE * n;
   gsl_sort(angles, 1, n);
   result->delta_angle = gsl_stats_quantile_from_sorted_data(angles, 1, n, level);
@@ -207,7 +208,7 @@ hypofab_status hypofab_bootstrap_uncertainty(const hypofab_bootstrap *bootstrap,
   }
   if (!status) {
     hypofab_uncertainty result = {.noise2 = bootstrap->noise2, .p_value = isotropy_p_value(bootstrap)};
-    summarise(columns, n, level, &result);
+    summarise(columns, n, level, R, &map, &result);
     *uncertainty = result;
   }
   free(columns);

@@ -1111,6 +1111,9 @@ void hypofab_bootstrap_free(hypofab_bootstrap *bootstrap);
 int hypofab_bootstrap_replicates(const hypofab_bootstrap *bootstrap);
 int64_t hypofab_bootstrap_units(const hypofab_bootstrap *bootstrap);
 
+/** What noise adds to a^2, from the scatter of the replicates (hypofab_uncertainty). */
+double hypofab_bootstrap_noise2(const hypofab_bootstrap *bootstrap);
+
 /** The fabric of the lists as they are; coordination numbers are not known. */
 hypofab_status hypofab_bootstrap_fabric(const hypofab_bootstrap *bootstrap, hypofab_fabric *fabric);
 
@@ -1125,7 +1128,7 @@ hypofab_status hypofab_bootstrap_fabric(const hypofab_bootstrap *bootstrap, hypo
 hypofab_status hypofab_bootstrap_replicate(const hypofab_bootstrap *bootstrap, int index, int corrected,
                                            hypofab_fabric *fabric);
 
-/** A range that holds the share `level` of the replicates, and their standard deviation. */
+/** A range that holds the share `level` of the replicates or more, and their standard deviation. */
 typedef struct hypofab_interval {
   double lower, upper, error;
 } hypofab_interval;
@@ -1139,8 +1142,8 @@ typedef struct hypofab_uncertainty {
   hypofab_interval deviatoric_fabric[6]; /**< F */
   hypofab_interval anisotropy;           /**< plain a: where a of another sample like this one would be */
   hypofab_interval corrected_anisotropy; /**< a without noise: where that of the unlimited sample is */
-  hypofab_interval weight;               /**< f(a) */
-  hypofab_interval delta[6];
+  hypofab_interval weight;               /**< f(a); as wide on both sides of the estimate, for it bends */
+  hypofab_interval delta[6];             /**< likewise */
   double delta_angle; /**< the share `level` of deltas is within this angle of the estimate, acos(d:d'/R^2) [deg] */
 } hypofab_uncertainty;
 
@@ -1199,6 +1202,74 @@ hypofab_status hypofab_study_run(const hypofab_study *study, const char *directo
 /** Compute every envelope of a study and write DIR/<envelope>.csv each. Arguments as hypofab_study_run. */
 hypofab_status hypofab_study_envelopes(const hypofab_study *study, const char *directory, hypofab_progress progress,
                                        void *user);
+
+/** Options of hypofab_study_stiffness; zero in a field takes its default. */
+typedef struct hypofab_stiffness_options {
+  hypofab_bootstrap_options bootstrap; /**< replicates 0: none; contacts or blocks of the states' contact lists */
+  double level;                        /**< share of the replicates inside an interval; no default */
+  int corrected;                       /**< non-zero: deltas from fabrics without noise */
+} hypofab_stiffness_options;
+
+/** Directional stiffness of one test (paper 000, Eq. 8 and Table 4). Intervals are NaN without a bootstrap. */
+typedef struct hypofab_stiffness {
+  double value; /**< secant q/eps_q at the end of the first step [stress of the deck] */
+  hypofab_interval interval;
+  double relative;                    /**< to the test that is lowest */
+  hypofab_interval relative_interval; /**< of the ratios within each replicate */
+} hypofab_stiffness;
+
+/**
+ * @brief Directional stiffnesses of a study, and how the uncertainty of its contact fabrics carries on to them.
+ *
+ * Replicates are drawn from the contact list of each state that has one; tests of one state share them. Each replicate
+ * runs the first step of every test.
+ * @param options  NULL for no bootstrap
+ * @param progress may be NULL
+ * @param results  one for each test of the study, filled
+ * @return a test that stops early fails the call with its status
+ */
+hypofab_status hypofab_study_stiffness(const hypofab_study *study, const hypofab_stiffness_options *options,
+                                       hypofab_progress progress, void *user, hypofab_stiffness *results);
+
+/** A stiffness to be matched. */
+typedef struct hypofab_stiffness_target {
+  const char *test; /**< name of a test of the study */
+  double stiffness; /**< secant stiffness at the end of its first step; any unit, the same for all */
+} hypofab_stiffness_target;
+
+/** Most stiffnesses of a fit. */
+#define HYPOFAB_MAX_TARGETS 64
+
+/** Options of hypofab_study_fit_c; zero in a field takes its default. */
+typedef struct hypofab_fit_c_options {
+  double lower, upper; /**< c is sought between them; 1e-3 and 10 */
+  double level;        /**< of the interval; 0.95 */
+  double error;        /**< relative standard error of each given stiffness; 0: from the residuals of the fit */
+  int corrected;       /**< non-zero: from fabrics without noise */
+} hypofab_fit_c_options;
+
+/** The c that matches given stiffnesses best. */
+typedef struct hypofab_c_fit {
+  double c;
+  double lower, upper;        /**< profile interval of c; NaN when neither residuals nor errors give one */
+  int lower_open, upper_open; /**< the interval goes on beyond the range that was searched */
+  int at_lower, at_upper;     /**< c is at an end of the range: any value beyond it may match as well or better */
+  double misfit;              /**< root-mean-square of ln(given/(factor computed)) */
+  double factor;              /**< given over computed stiffness, common to all tests */
+  double stiffness[HYPOFAB_MAX_TARGETS]; /**< computed, in the order of the targets [stress of the deck] */
+} hypofab_c_fit;
+
+/**
+ * @brief Fit c of the weight f(a) = 1 - exp(-a/c) to directional stiffnesses from DEM or laboratory (paper 000, Table
+ * 4).
+ *
+ * Ratios are matched: the sum of squares of ln(given/computed) about its mean is least. The interval holds every c
+ * whose sum of squares an F test (or, with a given error, a chi-square test) does not tell from the least one.
+ * @param n       number of targets, 2 or more; 3 or more for an interval without a given error
+ * @param options NULL for the defaults
+ */
+hypofab_status hypofab_study_fit_c(const hypofab_study *study, int n, const hypofab_stiffness_target *targets,
+                                   const hypofab_fit_c_options *options, hypofab_c_fit *result);
 
 /* Everything that is computed from the contacts of one sample, in a file of its own. */
 #include "hypofab_describe.h" /* IWYU pragma: export */
