@@ -72,7 +72,7 @@ def test_flow_of_paper_004(stress_probes: dict[str, Envelope]) -> None:
     assert [len(series.direction) for series in radial.series] == [112] * 4
     for series, lode in zip(radial.series, (0, 20, 40, 60), strict=True):
         x, y = deviatoric_coordinates(series.stress)
-        assert np.degrees(np.arctan2(x, y)) == pytest.approx(lode, abs=1e-6)
+        assert np.degrees(np.arctan2(-x, y)) == pytest.approx(lode, abs=1e-6)
         assert series.stress[:3].mean() == pytest.approx(100, rel=1e-9)
         assert series.irrecoverable is not None
         left = series.irrecoverable[:, :3]
@@ -80,16 +80,16 @@ def test_flow_of_paper_004(stress_probes: dict[str, Envelope]) -> None:
         assert values[1] < 0.01 * values[0]
         size = np.sqrt(contraction(series.irrecoverable, series.irrecoverable))
         largest = series.irrecoverable[size.argmax()]
-        assert largest[0] < 0 < largest[2]  # extension along the least stress, compression along the largest
+        assert largest[1] < 0 < largest[2]  # extension along the least stress, compression along the largest
     base, plus, minus = stress_probes["tangent"].series
     turn = []
     for series in (base, plus, minus):
         assert series.irrecoverable is not None
         size = np.sqrt(contraction(series.irrecoverable, series.irrecoverable))
         x, y = deviatoric_coordinates(series.irrecoverable[size.argmax()])
-        turn.append(np.degrees(np.arctan2(x, y)))
+        turn.append(np.degrees(np.arctan2(-x, y)))
     assert turn[0] == pytest.approx(0, abs=0.5)
-    assert turn[1] > 1  # loaded towards larger sigma_yy
+    assert turn[1] > 1  # loaded towards larger sigma_xx
     assert turn[2] == pytest.approx(-turn[1], rel=0.1)
 
 
