@@ -1,0 +1,57 @@
+"""Samples as files: the scene that later runs start from, and what they must know about it."""
+
+import json
+from pathlib import Path
+
+from yade import O
+
+from common import export
+from common.boundary import Boundary, PeriodicCell, WallBox
+from common.folder import Folder, fail
+from common.material import Material
+from common.simulation import Simulation
+
+SCENE = "sample.yade.gz"
+
+
+def boundary_of(kind: str, dimension: int) -> Boundary:
+    """The boundary named in a manifest."""
+    return WallBox() if kind == WallBox.kind else PeriodicCell(dimension)
+
+
+def write_sample(simulation: Simulation, title: str) -> dict:
+    """Write scene, contacts and particles of a finished preparation; its numbers go to the manifest."""
+    folder, boundary, material = simulation.folder, simulation.boundary, simulation.material
+    boundary.set_rates([0.0] * 3)
+    numbers = export.write_contacts(folder, "sample", boundary, material, title)
+    export.write_particles(folder, "sample")
+    O.save(str(folder.path / SCENE))
+    simulation.write_history()
+    return numbers | {"material": material.as_dict(), "boundary": boundary.kind, "notes": simulation.notes}
+
+
+def read_manifest(path: str) -> dict:
+    """The manifest of a finished run."""
+    file = Path(path) / "manifest.json"
+    if not file.exists():
+        fail(f"{file}: no such file; --sample expects the folder of a finished preparation")
+    manifest = json.loads(file.read_text())
+    if not manifest["finished"] or not (Path(path) / SCENE).exists():
+        fail(f"{path}: this preparation has not finished; start it again to continue it")
+    return manifest
+
+
+def load_sample(path: str, folder: Folder, checkpoint_every: float) -> Simulation:
+    """Load a sample, or continue the run of this folder that had begun with it. The sample's strains are zero."""
+    results = read_manifest(path)["results"]
+    material = Material(**results["material"])
+    simulation = Simulation(folder, material, boundary_of(results["boundary"], material.dimension), checkpoint_every)
+    if not simulation.resume():
+        O.load(str(Path(path) / SCENE))
+        simulation.first_step = O.iter
+        simulation.boundary.set_rates([0.0] * 3)
+        simulation.connect()
+        simulation.set_reference()
+        O.step()  # forces on walls are not part of a saved scene
+        simulation.record()
+    return simulation
