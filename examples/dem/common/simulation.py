@@ -105,11 +105,13 @@ class Simulation:
         if time.time() - self._reported > REPORT_EVERY:
             self._reported = time.time()
             s, e = self.stress() / 1e3, self.strain()
-            print(
-                f"{self.folder.seconds:7.0f} s  {stage.name:<12} step {O.iter:>9}"
-                f"  eps {e[0]:+.5f} {e[1]:+.5f} {e[2]:+.5f}  kPa {s[0]:9.3f} {s[1]:9.3f} {s[2]:9.3f}  unbalanced {utils.unbalancedForce():.1e}",
-                flush=True,
-            )
+            words = [
+                f"{self.folder.seconds:7.0f} s  {stage.name:<12} step {O.iter:>9}",
+                f"eps {e[0]:+.5f} {e[1]:+.5f} {e[2]:+.5f}",
+                f"kPa {s[0]:9.3f} {s[1]:9.3f} {s[2]:9.3f}",
+                f"unbalanced {utils.unbalancedForce():.1e}",
+            ]
+            print("  ".join(words), flush=True)
 
     def snapshot(self) -> dict:
         """What a checkpoint holds beside the scene."""
