@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import numpy as np
 from common import options
 from common.folder import Folder, fail
-from common.sample import load_sample, read_manifest, write_sample
+from common.sample import load_sample, read_manifest, sample_parameters, write_sample
 from common.simulation import Simulation, Stage
 
 
@@ -32,7 +32,7 @@ def main() -> None:
     """Consolidate one sample."""
     opt, parameters = parse()
     before = read_manifest(opt.sample)
-    parameters["sample_results"] = before["parameters"]
+    parameters |= sample_parameters(opt.sample)
     folder = Folder(opt.out, "consolidate", parameters)
     if folder.finished:
         print(f"{opt.out}: finished before")

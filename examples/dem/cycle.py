@@ -16,7 +16,7 @@ import numpy as np
 from common import export, options
 from common.folder import Folder, fail
 from common.material import SERVO_PERIOD
-from common.sample import load_sample, read_manifest
+from common.sample import load_sample, read_manifest, sample_parameters
 from common.simulation import Simulation, Stage
 from yade import O
 
@@ -59,7 +59,7 @@ def main() -> None:
     """Cycle one sample."""
     opt, parameters = parse()
     before = read_manifest(opt.sample)
-    parameters["sample_results"] = before["parameters"]
+    parameters |= sample_parameters(opt.sample)
     folder = Folder(opt.out, "cycle", parameters)
     if folder.finished:
         print(f"{opt.out}: finished before")
@@ -94,7 +94,9 @@ def main() -> None:
             ]
         )
         if cycle in opt.snapshots:
-            export.write_contacts(folder, f"cycle_{cycle:05d}", boundary, material, f"{opt.out}, after cycle {cycle}")
+            export.write_contacts(
+                folder, f"cycle_{cycle:05d}", boundary, material, f"{folder.path.name}, after cycle {cycle}"
+            )
 
     def begin(simulation: Simulation) -> None:
         simulation.servo.hold(low, 3e-3 / time_unit, with_integral=True)

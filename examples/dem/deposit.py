@@ -74,7 +74,7 @@ class Preparation:
         self, diameters: np.ndarray, outer: np.ndarray, width: float, bottom: float, sideways: float = 0.0
     ) -> float:
         """Add a cloud above a level and return the level of its top [m]."""
-        height = self.material.solid_volume(diameters) * (1 + self.cloud_void_ratio) / width
+        height = self.cloud_height(diameters, outer, width)
         positions = cloud.random_positions(outer, [width, height, 0.0], self.random, periodic=False)
         positions += [sideways, bottom, 0.0]
         if self.opt.shape == "clump":
@@ -85,13 +85,18 @@ class Preparation:
         cloud.note_solid_volume(self.material, diameters)
         return bottom + height
 
+    def cloud_height(self, diameters: np.ndarray, outer: np.ndarray, width: float) -> float:
+        """Height of a cloud [m]; particles keep their radius off the walls, which counts in small samples."""
+        area = self.material.solid_volume(diameters) * (1 + self.cloud_void_ratio)
+        return area / (width - 0.5 * max(outer)) + 0.5 * max(outer)
+
     def build(self, simulation: Simulation) -> None:
         """A new scene: walls, and for gravity and isotropic compression all particles."""
         self.material.add_to_scene()
         width = self.width
         if self.opt.method == "isotropic":
             width = math.sqrt(self.solid * (1 + self.cloud_void_ratio) / self.opt.aspect)
-        height = self.solid * (1 + self.cloud_void_ratio) / width
+        height = self.cloud_height(self.diameters, self.outer, width)
         simulation.boundary.create([width, height])
         if self.opt.method != "layers":
             self.add(self.diameters, self.outer, width, 0.0)

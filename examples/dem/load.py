@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from common import export, options
 from common.folder import Folder
-from common.sample import load_sample, read_manifest
+from common.sample import load_sample, read_manifest, sample_parameters
 from common.simulation import Simulation, Stage
 from yade import O
 
@@ -40,7 +40,7 @@ def parse() -> tuple[argparse.Namespace, dict]:
 def main() -> None:
     """Load one sample."""
     opt, parameters = parse()
-    parameters["sample_results"] = read_manifest(opt.sample)["parameters"]
+    parameters |= sample_parameters(opt.sample)
     folder = Folder(opt.out, "load", parameters)
     if folder.finished:
         print(f"{opt.out}: finished before")
@@ -70,7 +70,9 @@ def main() -> None:
         taken = simulation.notes.setdefault("snapshots", [])
         while len(taken) < len(opt.snapshots) and strain >= opt.snapshots[len(taken)]:
             name = f"strain_{len(taken):02d}"
-            numbers = export.write_contacts(folder, name, boundary, material, f"{opt.out}, axial strain {strain:.5f}")
+            numbers = export.write_contacts(
+                folder, name, boundary, material, f"{folder.path.name}, axial strain {strain:.5f}"
+            )
             taken.append(numbers | {"name": name, "strain": [float(e) for e in simulation.strain()]})
         return strain >= opt.strain
 
@@ -82,7 +84,7 @@ def main() -> None:
 
     simulation.run([Stage("load", begin, step, chunk=chunk)])
     simulation.write_history()
-    numbers = export.write_contacts(folder, "end", boundary, material, f"{opt.out}, end")
+    numbers = export.write_contacts(folder, "end", boundary, material, f"{folder.path.name}, end")
     notes = simulation.notes
     folder.finish(numbers | {"material": material.as_dict(), "boundary": boundary.kind, "notes": notes})
     print(f"strain {compression():.4f}, e {numbers['void_ratio']:.4f}, {folder.seconds:.0f} s")

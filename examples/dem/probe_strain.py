@@ -19,7 +19,7 @@ import numpy as np
 from common import export, options
 from common.folder import Folder, fail
 from common.probing import clear, run_probes, save_base
-from common.sample import load_sample, read_manifest
+from common.sample import load_sample, read_manifest, sample_parameters
 from common.simulation import Simulation, Stage
 from yade import O, utils
 
@@ -60,7 +60,7 @@ def main() -> None:
     """Probe one sample."""
     opt, parameters = parse()
     before = read_manifest(opt.sample)
-    parameters["sample_results"] = before["parameters"]
+    parameters |= sample_parameters(opt.sample)
     folder = Folder(opt.out, "probe_strain", parameters)
     if folder.finished:
         print(f"{opt.out}: finished before")
@@ -113,13 +113,16 @@ def main() -> None:
         stages = stages[2:]
     if simulation.stage_index < len(stages):
         simulation.run(stages)
-        export.write_contacts(folder, "before", boundary, material, f"{opt.out}, before the probes")
+        export.write_contacts(folder, "before", boundary, material, f"{folder.path.name}, before the probes")
         simulation.notes["before"] = export.state(boundary, material)
         simulation.save()
     state = simulation.notes["before"]
 
+    first: set = set()
+
     def probe(name: str) -> list[float]:
-        first = pairs(export.contacts())
+        if not first:
+            first.update(pairs(export.contacts()))
         stress = boundary.stress()
         direction = [0.0] * 3
         if name != "hold":
@@ -127,7 +130,7 @@ def main() -> None:
             direction = [math.cos(angle), math.sin(angle), 0.0]
         # The rate grows over a fifth of the time and falls over a fifth, so that no shock runs through the sample.
         ramp = max(1, steps // 5)
-        part = max(5, steps // 40)
+        part = max(5, steps // 20)
         for k in range(0, steps + ramp, part):
             share = min(1.0, (k + part / 2) / ramp, max(0.0, (steps + ramp - k - part / 2) / ramp))
             simulation.servo.strain([opt.size / (steps * O.dt) * share * d for d in direction])
@@ -137,7 +140,7 @@ def main() -> None:
         rows = export.contacts()
         second = pairs(rows)
         label = "hold" if name == "hold" else f"alpha_{float(name):05.1f}"
-        export.write_contacts(folder, label, boundary, material, f"{opt.out}, probe {name}")
+        export.write_contacts(folder, label, boundary, material, f"{folder.path.name}, probe {name}", rows, short=True)
         change = (boundary.stress() - stress) / 1e3
         strain = simulation.strain()
         alpha = -1.0 if name == "hold" else float(name)

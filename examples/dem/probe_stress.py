@@ -19,7 +19,7 @@ import numpy as np
 from common import export, options
 from common.folder import Folder, fail
 from common.probing import clear, run_probes, save_base
-from common.sample import load_sample, read_manifest
+from common.sample import load_sample, read_manifest, sample_parameters
 from common.simulation import Simulation, Stage
 from yade import O, utils
 
@@ -76,7 +76,7 @@ def main() -> None:
     """Shear and probe one sample."""
     opt, parameters = parse()
     before = read_manifest(opt.sample)
-    parameters["sample_results"] = before["parameters"]
+    parameters |= sample_parameters(opt.sample)
     folder = Folder(opt.out, "probe_stress", parameters)
     if folder.finished:
         print(f"{opt.out}: finished before")
@@ -116,7 +116,9 @@ def main() -> None:
     ]
     if simulation.stage_index < len(stages):
         simulation.run(stages)
-        simulation.notes["before"] = export.write_contacts(folder, "failure", boundary, material, f"{opt.out}, failure")
+        simulation.notes["before"] = export.write_contacts(
+            folder, "failure", boundary, material, f"{folder.path.name}, failure"
+        )
         simulation.save()
     base = np.array(simulation.notes["stress of the probes [kPa]"]) * 1e3
     directions = sphere(opt.directions)

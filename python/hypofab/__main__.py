@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import figures, probe_surfaces, stiffness
+from hypofab import figures, papers, probe_surfaces, stiffness
 from hypofab.probes import has_probes, is_classical, read_probes
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
 
@@ -59,6 +59,14 @@ def parser() -> argparse.ArgumentParser:
     draw.add_argument("directories", nargs="+", metavar="DIR", type=Path, help="results of hypofab run or envelope")
     draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
+
+    source = Path(__file__).parents[2]
+    paper = commands.add_parser("paper", help="DEM runs of examples/dem and element tests beside a paper's results")
+    paper.add_argument("paper", choices=papers.PAPERS, help="; ".join(f"{k}: {v}" for k, v in papers.PAPERS.items()))
+    paper.add_argument("--runs", type=Path, metavar="DIR", help="run folders (examples/dem/results/PAPER)")
+    paper.add_argument(
+        "--out", type=Path, default=source / "docs/papers/figures", metavar="DIR", help="for the figures"
+    )
     return top
 
 
@@ -69,6 +77,9 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "stiffness":
             columns = {label: stiffness.secant_stiffness(directory) for label, directory in options.runs}
             print(stiffness.table(columns | stiffness.REFERENCES))
+        elif options.command == "paper":
+            runs = options.runs or Path(__file__).parents[2] / "examples/dem/results" / options.paper
+            print(papers.compare(options.paper, runs, options.out))
         else:
             for directory in options.directories:
                 plot(directory, options)

@@ -33,6 +33,9 @@ CONTACT_COLUMNS = [
     "cpy",
     "cpz",
 ]
+SHORT = 8
+"""Columns of a short list."""
+
 PARTICLE_COLUMNS = ["id", "radius", "x", "y", "z", "angle", "n_contacts"]
 
 
@@ -112,9 +115,20 @@ def state(boundary: Boundary, material: Material, rows: np.ndarray | None = None
     }
 
 
-def write_contacts(folder: Folder, name: str, boundary: Boundary, material: Material, title: str) -> dict:
-    """Write NAME_contacts.txt.gz and return the numbers of the state."""
-    rows = contacts()
+def write_contacts(
+    folder: Folder,
+    name: str,
+    boundary: Boundary,
+    material: Material,
+    title: str,
+    rows: np.ndarray | None = None,
+    short: bool = False,
+) -> dict:
+    """Write NAME_contacts.txt.gz and return the numbers of the state.
+
+    rows: the contacts, if they are at hand. short: write ids, periods and normals alone.
+    """
+    rows = contacts() if rows is None else rows
     numbers = state(boundary, material, rows)
     comments = [
         f"{title}: YADE {folder.manifest['versions']['yade']}, {boundary.kind}",
@@ -124,7 +138,9 @@ def write_contacts(folder: Folder, name: str, boundary: Boundary, material: Mate
         f"void_ratio: {numbers['void_ratio']:.6f}  particles: {numbers['particles']}",
     ]
     formats = ["%d"] * 5 + ["%.6f"] * 3 + ["%.5e"] * 9 + ["%.4e"] + ["%.6e"] * 3
-    folder.write_table(f"{name}_contacts.txt.gz", comments, CONTACT_COLUMNS, rows, formats)
+    count = SHORT if short else len(CONTACT_COLUMNS)
+    table = rows[:, :count]
+    folder.write_table(f"{name}_contacts.txt.gz", comments, CONTACT_COLUMNS[:count], table, formats[:count])
     return numbers
 
 

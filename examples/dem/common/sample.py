@@ -41,6 +41,11 @@ def read_manifest(path: str) -> dict:
     return manifest
 
 
+def sample_parameters(path: str) -> dict:
+    """What the manifest of a run says of its sample: the name of the folder and the parameters of its preparation."""
+    return {"sample": Path(path).resolve().name, "sample_parameters": read_manifest(path)["parameters"]}
+
+
 def load_sample(path: str, folder: Folder, checkpoint_every: float) -> Simulation:
     """Load a sample, or continue the run of this folder that had begun with it. The sample's strains are zero."""
     results = read_manifest(path)["results"]

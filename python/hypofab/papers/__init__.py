@@ -1,0 +1,25 @@
+"""Each paper's discrete results beside ours: DEM runs of examples/dem, and element tests of the same samples."""
+
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+PAPERS = {
+    "000": "contact fabric and directional stiffness",
+    "001": "strain probes of two-dimensional isotropic samples",
+    "002": "fabric in stress cycles",
+    "003": "sample preparation and biaxial tests",
+    "004": "stress probes at failure",
+    "family": "beyond the papers: samples of different anisotropy",
+}
+"""What `python -m hypofab paper` compares."""
+
+
+def compare(paper: str, runs: Path, out: Path) -> str:
+    """Compare one paper: write figures to `out` and return the text of its tables.
+
+    runs: folder that holds the run folders of examples/dem under the names the paper's module lists.
+    """
+    function: Callable[[Path, Path], str] = import_module(f"hypofab.papers.paper_{paper}").compare
+    out.mkdir(parents=True, exist_ok=True)
+    return function(runs, out)

@@ -1,0 +1,149 @@
+"""Paper 000: contact fabric, delta, and the directional stiffness of DEM samples and of element tests.
+
+Runs: `iso` and `aniso` of prepare.py; `A-0`, `A-90`, `I-0`, `I-90` of load.py. With `loose_` in front, these names are
+optional: samples with the final friction already while they were prepared, as in the paper.
+"""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from hypofab import paper000
+from hypofab.figures import line_style
+from hypofab.papers import draw
+from hypofab.papers.element import SMALL, Fit, Loading, element_tests, fit_c, ratio_error, secants
+from hypofab.papers.program import run_json
+from hypofab.papers.runs import Curve, DemRun, read_curve, read_dem
+from hypofab.results import TestResult
+
+TESTS = {"A-0": ("aniso", "y"), "A-90": ("aniso", "x"), "I-0": ("iso", "y"), "I-90": ("iso", "x")}
+PAPER_STATES = {"iso": (0.642, 2.41, 0.033), "aniso": (0.640, 2.43, 0.324)}
+"""Table 1: e, CN, a."""
+
+
+def states(samples: dict[str, DemRun]) -> str:
+    """Table 1 with ours beside the paper's."""
+    rows = []
+    for name, sample in samples.items():
+        r = sample.results
+        rows.append(
+            [
+                name,
+                str(r["particles"]),
+                f"{r['void_ratio']:.3f}",
+                f"{r['coordination_number']:.2f}",
+                f"{r['coordination_number'] / 2:.2f}",
+                f"{r['anisotropy']:.3f}",
+                f"{r['anisotropy_noise']:.3f}",
+            ]
+        )
+    rows += [
+        [f"paper, {k}", "20000", f"{e:.3f}", f"{cn:.2f}", "", f"{a:.3f}", ""] for k, (e, cn, a) in PAPER_STATES.items()
+    ]
+    return draw.table(["sample", "N_p", "e", "2 N_c/N_p", "N_c/N_p", "a", "a of noise"], rows)
+
+
+def stiffness_table(columns: dict[str, dict[str, float]]) -> str:
+    """Table 4: stiffness [kPa] and its ratio to that of A-90."""
+    rows = [
+        [name, *(f"{column[name]:.0f} ({column[name] / column['A-90']:.2f})" for column in columns.values())]
+        for name in TESTS
+    ]
+    return draw.table(["test", *columns], rows)
+
+
+def surface(path: Path, samples: dict[str, DemRun]) -> None:
+    """Figure 4: the density of contact normals, 1 + F:nn, as a surface."""
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    from hypofab.figures import INCH, STYLE
+
+    u, v = np.meshgrid(np.linspace(0, np.pi, 31), np.linspace(0, 2 * np.pi, 61))
+    n = np.stack([np.sin(u) * np.cos(v), np.cos(u), np.sin(u) * np.sin(v)])
+    with rc_context(STYLE):
+        figure = Figure(figsize=(95 * len(samples) / INCH, 90 / INCH), layout="constrained")
+        for index, (name, sample) in enumerate(samples.items()):
+            fabric = run_json("fabric", sample.contacts)
+            xx, yy, zz, xy, xz, yz = fabric["deviatoric_fabric"]
+            tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            x, y, z = n * (1 + np.einsum("i...,ij,j...->...", n, tensor, n))
+            axes = figure.add_subplot(1, len(samples), index + 1, projection="3d")
+            axes.plot_surface(x, z, y, color="#7FBFE8", edgecolor="#00508C", linewidth=0.2, alpha=1.0)
+            axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(-1.3, 1.3), xlabel="x", ylabel="z", zlabel="y")
+            axes.set_title(f"{name}, a = {fabric['anisotropy']:.3f}")
+            axes.set_box_aspect((1, 1, 1))
+        figure.savefig(path, dpi=110)
+
+
+def _curves(axes: Axes, curves: dict[str, Curve] | dict[str, TestResult], what: str, title: str) -> None:
+    """Deviatoric stress or volumetric strain of four tests over eps_q."""
+    for index, (name, test) in enumerate(curves.items()):
+        y = test.q if what == "q" else 100 * test.eps_v
+        axes.plot(100 * test.eps_q, y, label=name, **line_style(index))
+    axes.set(xlabel="deviatoric strain [%]", title=title, xlim=(0, None))
+    axes.set_ylabel("q [kPa]" if what == "q" else "volumetric strain [%] (dilation positive)")
+    axes.legend(loc="lower right" if what == "q" else "upper left")
+
+
+def _zoom(axes: Axes, curves: dict[str, Curve] | dict[str, TestResult], place: tuple[float, ...]) -> None:
+    """An inset up to eps_q = 0.1 %."""
+    inset = axes.inset_axes(place)
+    top = 0.0
+    for index, test in enumerate(curves.values()):
+        inset.plot(100 * test.eps_q, test.q, **line_style(index))
+        top = max(top, float(np.interp(SMALL, test.eps_q, test.q)))
+    inset.set(xlim=(0, 100 * SMALL), ylim=(0, 1.05 * top))
+    inset.tick_params(labelsize=7)
+
+
+def directional(runs: Path, prefix: str) -> tuple[dict[str, DemRun], dict[str, Curve], list[Loading], Fit]:
+    """Samples, DEM curves, element loadings and the fitted c of one set of runs."""
+    samples = {name: read_dem(runs / f"{prefix}{name}") for name in ("iso", "aniso")}
+    curves = {name: read_curve(runs / f"{prefix}{name}") for name in TESTS}
+    loadings = [Loading(name, samples[sample], axis) for name, (sample, axis) in TESTS.items()]
+    measured = {name: curve.secant(SMALL) for name, curve in curves.items()}
+    return samples, curves, loadings, fit_c(ratio_error(loadings, measured))
+
+
+def compare(runs: Path, out: Path) -> str:
+    """Tables 1 and 4, Figures 4 to 8."""
+    text = []
+    for prefix in ("", "loose_"):
+        if prefix and not (runs / f"{prefix}A-0").exists():
+            continue
+        samples, curves, loadings, fit = directional(runs, prefix)
+        strain = min(0.1, min(float(curve.axial[-1]) for curve in curves.values())) if prefix else 0.1
+        element = {c: element_tests(loadings, c, strain) for c in (0.05, fit.c)}
+        bound = ", an end of the range searched" if fit.at_bound else ""
+        text += [
+            f"{prefix or 'dense '}samples: c fitted = {fit.c:.3g}{bound}, rms error of log ratios {fit.error:.3f}",
+            states(samples),
+            stiffness_table(
+                {
+                    "DEM": {name: curve.secant(SMALL) for name, curve in curves.items()},
+                    "element, c = 0.05": secants(element[0.05]),
+                    f"element, c = {fit.c:.3g}": secants(element[fit.c]),
+                    "paper, DEM": paper000.DEM,
+                    "paper, element": paper000.ELEMENT_TEST,
+                }
+            ),
+        ]
+        with draw.panels(out / f"000_{prefix}stress_strain.png", 3) as (dem, paper_c, fitted):
+            _curves(dem, curves, "q", f"DEM, {samples['iso'].results['particles']} spheres")
+            _curves(paper_c, element[0.05], "q", "element tests, c = 0.05")
+            _curves(fitted, element[fit.c], "q", f"element tests, c = {fit.c:.3g}")
+            if not prefix:
+                _zoom(dem, curves, (0.42, 0.12, 0.4, 0.4))
+                _zoom(paper_c, element[0.05], (0.42, 0.12, 0.4, 0.4))
+                _zoom(fitted, element[fit.c], (0.42, 0.12, 0.4, 0.4))
+                for axes in (dem, paper_c, fitted):
+                    axes.legend(loc="upper right", ncols=2)
+        if not prefix:
+            surface(out / "000_fabric.png", samples)
+            with draw.panels(out / "000_volumetric.png", 3) as (dem, paper_c, fitted):
+                _curves(dem, curves, "v", "DEM")
+                _curves(paper_c, element[0.05], "v", "element tests, c = 0.05")
+                _curves(fitted, element[fit.c], "v", f"element tests, c = {fit.c:.3g}")
+    return "\n\n".join(text)

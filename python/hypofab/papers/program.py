@@ -1,0 +1,32 @@
+"""Call the program `hypofab`."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from hypofab.results import ResultError
+
+
+def program() -> str:
+    """Path of the program: HYPOFAB_PROGRAM, the build folder of this source tree, or the search path."""
+    built = Path(__file__).parents[3] / "build" / "cli" / "hypofab"
+    found = os.environ.get("HYPOFAB_PROGRAM") or (str(built) if built.exists() else shutil.which("hypofab"))
+    if not found:
+        raise ResultError("hypofab was not found: build it, or name it in HYPOFAB_PROGRAM")
+    return found
+
+
+def run(*arguments: str | Path) -> str:
+    """Standard output of the program; ResultError with its message when it fails."""
+    words = [program(), *map(str, arguments)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise ResultError(f"{' '.join(words)}: {done.stderr.strip() or done.stdout.strip()}")
+    return done.stdout
+
+
+def run_json(*arguments: str | Path) -> dict | list:
+    """The JSON that a command with --json prints."""
+    return json.loads(run(*arguments, "--json"))
