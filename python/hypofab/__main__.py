@@ -1,12 +1,16 @@
 """Command line: `python -m hypofab stiffness ...` prints a table, `python -m hypofab plot ...` draws figures."""
 
 import argparse
+import os
+import shutil
 import sys
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
 from hypofab import figures, papers, probe_surfaces, stiffness
+from hypofab.laboratory.catalogue import CatalogueError
+from hypofab.laboratory.report import report as laboratory
 from hypofab.probes import has_probes, is_classical, read_probes
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
 
@@ -47,6 +51,12 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
             save(figure, stem)
 
 
+def default_program() -> str:
+    """The program: HYPOFAB_PROGRAM, or hypofab on the path, or the one built here."""
+    built = Path(__file__).resolve().parents[2] / "build" / "cli" / "hypofab"
+    return os.environ.get("HYPOFAB_PROGRAM") or shutil.which("hypofab") or str(built)
+
+
 def parser() -> argparse.ArgumentParser:
     """The command line's parser."""
     top = argparse.ArgumentParser(prog="python -m hypofab", description="Tables and figures from results of hypofab.")
@@ -67,6 +77,14 @@ def parser() -> argparse.ArgumentParser:
     paper.add_argument(
         "--out", type=Path, default=source / "docs/papers/figures", metavar="DIR", help="for the figures"
     )
+
+    laboratory = commands.add_parser("laboratory", help="laboratory tests computed beside what was measured: a report")
+    laboratory.add_argument("directory", metavar="DIR", type=Path, help="folder with the files of the tests")
+    laboratory.add_argument("-o", "--output", metavar="OUT", type=Path, required=True, help="folder for the report")
+    laboratory.add_argument("--catalogue", metavar="FILE", type=Path, help="tests and their files (default: built in)")
+    laboratory.add_argument(
+        "--program", default=default_program(), metavar="PATH", help="hypofab (default: %(default)s)"
+    )
     return top
 
 
@@ -80,10 +98,12 @@ def main(arguments: list[str] | None = None) -> int:
         elif options.command == "paper":
             runs = options.runs or Path(__file__).parents[2] / "examples/dem/results" / options.paper
             print(papers.compare(options.paper, runs, options.out))
+        elif options.command == "laboratory":
+            print(laboratory(options.directory, options.output, options.program, options.catalogue))
         else:
             for directory in options.directories:
                 plot(directory, options)
-    except ResultError as error:
+    except (ResultError, CatalogueError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     return 0

@@ -90,7 +90,7 @@ def read_columns(path: Path) -> dict[str, list[str]]:
     return {name: [row[index] for row in rows[1:]] for index, name in enumerate(header)}
 
 
-def _numbers(path: Path, columns: Mapping[str, list[str]], name: str) -> Array:
+def read_numbers(path: Path, columns: Mapping[str, list[str]], name: str) -> Array:
     """One column as numbers; ResultError when it is missing or holds something else."""
     if name not in columns:
         raise ResultError(f"{path}: no column {name}")
@@ -106,7 +106,7 @@ def read_test(path: str | Path) -> TestResult:
     columns = read_columns(path)
 
     def scalar(name: str) -> Array:
-        return _numbers(path, columns, name)
+        return read_numbers(path, columns, name)
 
     def tensor(prefix: str) -> Array:
         return np.column_stack([scalar(f"{prefix}_{component}") for component in COMPONENTS])
@@ -136,7 +136,7 @@ def read_envelope(path: str | Path) -> list[EnvelopeSeries]:
         raise ResultError(f"{path}: no column series")
     names = np.array(columns["series"])
     angle, axial, lateral, delta_axial, delta_lateral = (
-        _numbers(path, columns, name)
+        read_numbers(path, columns, name)
         for name in ("angle", "response_axial", "response_lateral", "delta_axial", "delta_lateral")
     )
     series = []

@@ -1,0 +1,55 @@
+"""Stress and dilatancy: closed forms and what the figures show."""
+
+import numpy as np
+import pytest
+
+from hypofab.dilatancy import (
+    DrainedTest,
+    critical_ratio,
+    critical_states,
+    critical_void_ratio,
+    dilatancy_points,
+    rowe,
+    stress_dilatancy,
+)
+
+PARAMETERS = {"phi_c": 30.0, "h_s": 1e6, "n": 0.25, "e_c0": 0.95}
+
+
+def drained(slope: float, end: float = 0.2) -> DrainedTest:
+    """A test with a constant dilatancy, q = 3 (p - 100) and p from 100 to 200."""
+    eps_1 = np.linspace(0, end, 401)
+    p = 100 + 100 * eps_1 / end
+    return DrainedTest("linear", eps_1, slope * eps_1, 3 * (p - 100), p, 0.7 - slope * eps_1)
+
+
+def test_points_have_the_slope_and_the_ratio_of_the_rows() -> None:
+    points = dilatancy_points(drained(-0.4), levels=(0.01, 0.1, 0.199))
+    np.testing.assert_allclose(points.dilatancy, [-0.4, -0.4], atol=1e-12)  # the last level is too near the end
+    np.testing.assert_allclose(points.ratio, [15 / 105, 1.0], rtol=1e-10)
+
+
+def test_rowe_passes_through_the_critical_state_and_isotropic_loading() -> None:
+    assert rowe(0.0, 30.0) == pytest.approx(critical_ratio(30.0))
+    assert critical_ratio(30.0) == pytest.approx(1.2)
+    assert rowe(1 - 1 / 3, 30.0) == pytest.approx(0.0)  # tan^2(60) = 3: s1 = s3
+    assert np.all(np.diff(rowe(np.linspace(-1, 0.5, 20), 30.0)) < 0)
+
+
+def test_critical_void_ratio_is_that_of_the_model() -> None:
+    assert critical_void_ratio(0.0, PARAMETERS) == 0.95
+    assert critical_void_ratio(1e6 / 3, PARAMETERS) == pytest.approx(0.95 / np.e)
+
+
+def test_open_points_are_not_critical_yet() -> None:
+    figure = critical_states({"a": [drained(0.0)], "b": [drained(-0.4)]}, PARAMETERS)
+    faces = {line.get_label(): line.get_markerfacecolor() for line in figure.axes[0].lines}
+    assert faces["a"] != "none"
+    assert faces["b"] == "none"
+
+
+def test_stress_dilatancy_has_a_column_for_each_group_and_one_scale() -> None:
+    figure = stress_dilatancy({"a": [drained(0.0)], "b": [drained(-0.4), drained(-0.2)]}, 30.0)
+    left, right = figure.axes
+    assert left.get_ylim() == right.get_ylim()
+    assert [len(axis.lines) for axis in figure.axes] == [2, 3]
