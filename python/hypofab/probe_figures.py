@@ -52,12 +52,15 @@ def scale(envelope: Envelope, *, of_response: bool) -> tuple[float, str, str]:
     return 1 / megapascal[0], rate, rf"per {megapascal[1]} of $|\dot{{\boldsymbol{{\sigma}}}}|$"
 
 
-def _axis_name(envelope: Envelope, basis: Array, index: int) -> str:
-    """Index of a coordinate: a component where the basis tensor is one, else its number."""
-    if envelope.directions == "axisymmetric":
-        return ("axial", r"lateral,\times\sqrt{2}")[index]
+def _axis_label(envelope: Envelope, basis: Array, index: int, symbol: str, unit: str) -> str:
+    """Label of a coordinate: a component where the basis tensor is one, else its number."""
     nonzero = np.flatnonzero(np.abs(basis[index]) > 1e-12)
-    return COMPONENTS[nonzero[0]] if len(nonzero) == 1 and nonzero[0] < 3 else f"({index + 1})"
+    factor, name = "", f"({index + 1})"
+    if envelope.directions == "axisymmetric":
+        factor, name = ("", r"\sqrt{2}\,")[index], ("axial", "lateral")[index]
+    elif len(nonzero) == 1:
+        factor, name = ("" if nonzero[0] < 3 else r"\sqrt{2}\,"), COMPONENTS[nonzero[0]]
+    return rf"${factor}{symbol}_{{\mathrm{{{name}}}}}$ [{unit}]"
 
 
 def ellipse(series: ProbeSeries, points: int = 181) -> Array:
@@ -75,7 +78,6 @@ def fan(envelope: Envelope, *, compression_positive: bool = False) -> Figure:
     compression_positive: sign in the figure, whatever that of the results.
     """
     sign = _sign(envelope, compression_positive)
-    first, second = (_axis_name(envelope, envelope.series[0].basis, index) for index in range(2))
     with rc_context(STYLE):
         figure = Figure(figsize=(170 / INCH, 92 / INCH), layout="constrained")
         left, right = figure.subplots(1, 2)
@@ -84,8 +86,9 @@ def fan(envelope: Envelope, *, compression_positive: bool = False) -> Figure:
             axes.axvline(0, color="0.55", linewidth=0.8)
             axes.set_aspect("equal", adjustable="datalim")
             factor, symbol, unit = scale(envelope, of_response=of_response)
-            label = rf"${symbol}_{{\mathrm{{%s}}}}$ [{unit}]"
-            axes.set(xlabel=label % first, ylabel=label % second)
+            labels = [_axis_label(envelope, envelope.series[0].basis, index, symbol, unit) for index in range(2)]
+            axes.set(xlabel=labels[0], ylabel=labels[1])
+            axes.locator_params(nbins=5)
             what = "stress" if envelope.imposes_stress != of_response else "strain"
             axes.set_title(f"{what} {'answering' if of_response else 'imposed'}", fontsize=9)
             if not of_response:
@@ -128,26 +131,35 @@ def deviatoric_coordinates(tensors: Array) -> Array:
     return np.stack([(y - x) / np.sqrt(2), (2 * z - x - y) / np.sqrt(6)], axis=-1)
 
 
+def _scaled_strains(envelope: Envelope) -> list[Array]:
+    """The strain that stress probes leave, compression positive, largest norm 1; zero where nothing is left."""
+    sign = _sign(envelope, compression_positive=True)
+    strains = []
+    for series in envelope.series:
+        strain = series.response if series.irrecoverable is None else series.irrecoverable
+        largest = np.sqrt(np.nanmax(contraction(strain, strain)))
+        whole = np.sqrt(np.nanmax(contraction(series.response, series.response)))
+        strains.append(sign * strain / largest if largest > 1e-9 * whole else np.zeros_like(strain))
+    return strains
+
+
 def flow(envelope: Envelope) -> Figure:
     """Direction of the strain that stress probes leave (paper 004, Figures 1 and 2), compression positive.
 
     Left: in the deviatoric plane of stress each envelope is drawn at the stress it starts from, scaled to one size.
     Right: volumetric over deviatoric strain. Without unloading the strain is the whole answer.
     """
-    sign = _sign(envelope, compression_positive=True)
-    strains = [series.response if series.irrecoverable is None else series.irrecoverable for series in envelope.series]
+    strains = _scaled_strains(envelope)
     what = "strain" if envelope.series[0].irrecoverable is None else "irrecoverable strain"
     with rc_context(STYLE):
         figure = Figure(figsize=(170 / INCH, 100 / INCH), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.15, 1))
         for index, (series, strain) in enumerate(zip(envelope.series, strains, strict=True)):
-            size = np.sqrt(contraction(strain, strain))
-            scaled = sign * strain / max(np.nanmax(size), 1e-300)
-            volumetric = contraction(scaled, UNIT_TENSOR)
-            deviator = scaled - volumetric[:, None] / 3 * UNIT_TENSOR
+            volumetric = contraction(strain, UNIT_TENSOR)
+            deviator = strain - volumetric[:, None] / 3 * UNIT_TENSOR
             style = marker_style(index) | {"markersize": 3, "label": series.name}
             right.plot(np.sqrt(2 / 3 * contraction(deviator, deviator)), volumetric, **style)
-        _deviatoric_plane(left, envelope, [sign * strain for strain in strains], sign)
+        _deviatoric_plane(left, envelope, strains)
         left.set_title(f"{what}, drawn at its stress", fontsize=9)
         right.set_title(f"{what}, largest norm 1", fontsize=9)
         right.axhline(0, color="0.55", linewidth=0.8)
@@ -157,29 +169,31 @@ def flow(envelope: Envelope) -> Figure:
         return figure
 
 
-def _deviatoric_plane(axes: Axes, envelope: Envelope, strains: list[Array], sign: int) -> None:
+def _deviatoric_plane(axes: Axes, envelope: Envelope, strains: list[Array]) -> None:
     """Stress points and, starting from them, strain envelopes scaled to a common length."""
+    sign = _sign(envelope, compression_positive=True)
     starts = np.array([deviatoric_coordinates(sign * series.stress) for series in envelope.series])
     spread = np.hypot(*(starts - starts.mean(axis=0)).T).max()
-    reach = max(np.hypot(*starts.T).max(), 1e-12)
-    is_wide = spread > 0.2 * reach or len(starts) == 1  # else the origin is out of sight
-    length = 0.45 * reach if is_wide else 12 * spread
-    tips = []
+    reach = np.hypot(*starts.T).max()
+    pressure = abs(envelope.series[0].stress[:3].mean())
+    is_close = 1e-9 * pressure < spread < 0.2 * reach  # different states near each other: the origin is out of sight
+    length = 12 * spread if is_close else 0.45 * max(reach, 0.2 * pressure)
+    outermost = 0.0
     for index, (start, strain) in enumerate(zip(starts, strains, strict=True)):
-        tip = deviatoric_coordinates(strain)
-        tip = start + length * tip / max(np.nanmax(np.hypot(*tip.T)), 1e-300)
-        tips.append(tip)
+        tips = start + length * deviatoric_coordinates(strain)
+        outermost = max(outermost, 1.12 * np.nanmax(np.hypot(*tips.T)))
         style = marker_style(index)
-        if is_wide:
+        if not is_close:
             axes.plot([0, start[0]], [0, start[1]], color=style["color"], linewidth=0.8, linestyle=(0, (2, 2)))
         axes.plot(*start, marker="o", markersize=5, color=style["color"])
-        axes.plot(*tip.T, **style, markersize=3.5)
-    if is_wide:
-        outermost = 1.12 * max(np.nanmax(np.hypot(*tip.T)) for tip in tips)
+        axes.plot(*tips.T, **style, markersize=3.5)
+    if not is_close:
         for name, tensor in zip(("xx", "yy", "zz"), np.eye(3, 6), strict=True):
-            end = outermost * deviatoric_coordinates(tensor) / np.sqrt(2 / 3) * (1.0 if name == "zz" else 0.5)
+            end = deviatoric_coordinates(tensor) / np.sqrt(2 / 3)
+            end *= outermost * (1.0 if end @ starts.mean(axis=0) > 0.5 * reach else 0.5)  # long where the states are
             axes.plot([0, end[0]], [0, end[1]], color="0.55", linewidth=0.8, zorder=1)
-            axes.annotate(rf"$\sigma_{{{name}}}$", end, ha="center", va="center", backgroundcolor="white")
+            box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
+            axes.annotate(rf"$\sigma_{{{name}}}$", end, ha="center", va="center", bbox=box)
     axes.set_aspect("equal", adjustable="datalim")
     axes.set(
         xlabel=rf"$(\sigma_{{yy}}-\sigma_{{xx}})/\sqrt{{2}}$ [{envelope.unit}]",
