@@ -169,6 +169,8 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     case ARGP_KEY_END:
       if (chosen->corrected && chosen->contacts.has_tensor)
         argp_error(state, "--corrected needs the number of contacts; the fabric tensor of --N has none");
+      if (chosen->contacts.format.dimension == 2)
+        argp_error(state, "--plane: the map to delta is one of three dimensions");
       uncertainty_check(state, &chosen->contacts, &chosen->uncertainty);
       check(state, chosen);
       return 0;

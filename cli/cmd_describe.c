@@ -9,7 +9,7 @@
 #include "cli/describe_report.h"
 #include "cli/report.h"
 
-enum { KEY_JSON = 0x100, KEY_CSV, KEY_VOLUME, KEY_CELL, KEY_FRICTION, KEY_ANGLE, KEY_SLIDING, KEY_BINS, KEY_PLANE };
+enum { KEY_JSON = 0x100, KEY_CSV, KEY_FRICTION, KEY_ANGLE, KEY_SLIDING, KEY_BINS };
 
 typedef struct choices {
   contact_options contacts;
@@ -18,8 +18,6 @@ typedef struct choices {
 } choices;
 
 static const struct argp_option options[] = {
-    {.name = "volume", .key = KEY_VOLUME, .arg = "V", .doc = "Volume of the sample (plane: area), for the stress"},
-    {.name = "cell", .key = KEY_CELL, .arg = "LX,LY,LZ", .doc = "The same from the edges of a box (plane: LX,LY)"},
     {.name = "friction", .key = KEY_FRICTION, .arg = "MU", .doc = "Friction coefficient of the grains, for sliding"},
     {.name = "friction-angle", .key = KEY_ANGLE, .arg = "DEGREES", .doc = "The same as an angle"},
     {.name = "sliding",
@@ -30,7 +28,6 @@ static const struct argp_option options[] = {
      .key = KEY_BINS,
      .arg = "N",
      .doc = "Bins for least squares and goodness of fit (default: 100 on the hemisphere, 18 on the half circle)"},
-    {.name = "plane", .key = KEY_PLANE, .doc = "Two-dimensional sample in the plane xy"},
     {.name = "json",
      .key = KEY_JSON,
      .doc = "Print everything as JSON: an object, or an array of them for several files"},
@@ -50,20 +47,6 @@ static const char doc[] =
     "  hypofab describe contacts.txt.gz --friction-angle 30 --sliding 0.9999\n"
     "  hypofab describe step_*.txt --csv > series.csv";
 
-static void parse_cell(struct argp_state *state, const char *text, double *volume) {
-  const char *rest = text;
-  double product = 1.0;
-  int count = 0;
-  for (char *end; *rest; count++) {
-    double length = strtod(rest, &end);
-    if (end == rest || (*end && *end != ',') || !isfinite(length) || !(length > 0.0)) break;
-    product *= length;
-    rest = *end ? end + 1 : end;
-  }
-  if (*rest || count < 2 || count > 3) argp_error(state, "--cell: '%s'; expected LX,LY,LZ, all > 0", text);
-  *volume = product;
-}
-
 static double parse_positive(struct argp_state *state, const char *option, const char *text) {
   double value = parse_number(state, option, text);
   if (!(value > 0.0)) argp_error(state, "%s: %s; expected a number > 0", option, text);
@@ -75,15 +58,12 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   hypofab_describe_options *describe = &chosen->describe;
   switch (key) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &chosen->contacts; return 0;
-    case KEY_VOLUME: describe->volume = parse_positive(state, "--volume", text); return 0;
-    case KEY_CELL: parse_cell(state, text, &describe->volume); return 0;
     case KEY_FRICTION: describe->friction = parse_positive(state, "--friction", text); return 0;
     case KEY_ANGLE:
       describe->friction = tan(parse_positive(state, "--friction-angle", text) * acos(-1.0) / 180.0);
       return 0;
     case KEY_SLIDING: describe->sliding_threshold = parse_positive(state, "--sliding", text); return 0;
     case KEY_BINS: describe->bins = (int)parse_positive(state, "--bins", text); return 0;
-    case KEY_PLANE: describe->dimension = 2; return 0;
     case KEY_JSON: chosen->json = true; return 0;
     case KEY_CSV: chosen->csv = true; return 0;
     case ARGP_KEY_END:

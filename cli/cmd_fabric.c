@@ -68,7 +68,7 @@ void print_fabric(const hypofab_fabric *fabric) {
   }
 }
 
-enum { KEY_JSON = 0x100 };
+enum { KEY_JSON = 0x100, KEY_PARTIAL };
 
 typedef struct choices {
   contact_options contacts;
@@ -78,13 +78,19 @@ typedef struct choices {
 } choices;
 
 static const struct argp_option options[] = {
-    {.name = "json", .key = KEY_JSON, .doc = "Print a JSON object with all digits instead of a table"}, {0}};
+    {.name = "json", .key = KEY_JSON, .doc = "Print a JSON object with all digits instead of a table"},
+    {.name = "partial",
+     .key = KEY_PARTIAL,
+     .arg = "PART",
+     .doc = "Write the sums of FILE, a part of a sample, to be merged by `hypofab merge`"},
+    {0}};
 
 static const char doc[] =
     "Contact fabric of a granular sample: fabric tensor N, deviatoric fabric F = 15/2 (N - 1/3 1), anisotropy "
     "a = sqrt(3/2 F:F), principal values and coordination numbers.\n"
-    "FILE is a list with one contact per row, plain or compressed by gzip, as DEM programs write it. When its header "
-    "names the columns nx, ny, nz (and id1, id2), no options are needed."
+    "FILE is what a DEM program or a script has written: a table with one contact per row, a dump of LAMMPS, VTK, "
+    "NumPy, plain or compressed by gzip or zstd. When a header names the columns nx, ny, nz (and id1, id2), no options "
+    "are needed."
     "\v"
     "Examples:\n"
     "  hypofab fabric contacts.txt.gz --particles particles.txt.gz\n"
@@ -98,7 +104,6 @@ static const char doc[] =
 
 static error_t parse(int key, char *text, struct argp_state *state) {
   choices *chosen = state->input;
-  (void)text;
   switch (key) {
     case ARGP_KEY_INIT:
       state->child_inputs[0] = &chosen->contacts;
@@ -106,7 +111,10 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       state->child_inputs[2] = &chosen->axes;
       return 0;
     case KEY_JSON: chosen->json = true; return 0;
+    case KEY_PARTIAL: chosen->contacts.partial = text; return 0;
     case ARGP_KEY_END:
+      if (chosen->contacts.partial && (chosen->contacts.has_tensor || chosen->contacts.n_files > 1))
+        argp_error(state, "--partial: expected one contact list");
       uncertainty_check(state, &chosen->contacts, &chosen->uncertainty);
       if (chosen->uncertainty.replicates && chosen->axes.given)
         argp_error(state, "--bootstrap knows the axes of the contacts only");
@@ -115,14 +123,21 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
-static int show_json(const hypofab_fabric *fabric, const uncertainty *found) {
+/* What reading told is known of one contact file alone. */
+static const hypofab_sample *sample_of(const choices *chosen) {
+  return chosen->contacts.n_files == 1 && !chosen->contacts.has_tensor ? chosen->contacts.sample : NULL;
+}
+
+static int show_json(const choices *chosen, const hypofab_fabric *fabric, const uncertainty *found) {
   json_t *object = fabric_to_json(fabric);
+  if (sample_of(chosen)) sample_to_json(sample_of(chosen), fabric, object);
   uncertainty_to_json(found, false, object);
   return print_json(object);
 }
 
-static int show(const hypofab_fabric *fabric, const uncertainty *found) {
+static int show(const choices *chosen, const hypofab_fabric *fabric, const uncertainty *found) {
   print_fabric(fabric);
+  if (sample_of(chosen)) print_sample(sample_of(chosen), fabric);
   uncertainty_print(found, fabric, false);
   return cli_finish_output();
 }
@@ -142,12 +157,16 @@ int cmd_fabric(int argc, char **argv) {
   if (argp_parse(&parser, argc, argv, 0, NULL, &chosen)) return CLI_INTERNAL_ERROR;
 
   hypofab_fabric fabric;
+  hypofab_sample sample;
   uncertainty found;
+  chosen.contacts.sample = &sample;
   hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
   if (!status) status = axes_options_apply(&chosen.axes, &fabric);
   /* Of delta nothing is shown: R and c are of no consequence. */
   if (!status) status = uncertainty_intervals(&found, 1.0, 1.0, false);
-  const int exit_code = status ? cli_exit(status) : chosen.json ? show_json(&fabric, &found) : show(&fabric, &found);
+  const int exit_code = status        ? cli_exit(status)
+                        : chosen.json ? show_json(&chosen, &fabric, &found)
+                                      : show(&chosen, &fabric, &found);
   uncertainty_free(&found);
   return exit_code;
 }

@@ -28,6 +28,9 @@ int cmd_changes(int argc, char **argv);
 /** All fabric and force descriptors of contact lists. */
 int cmd_describe(int argc, char **argv);
 
+/** Fabric of a sample from the sums of its parts. */
+int cmd_merge(int argc, char **argv);
+
 /** Initial intergranular strain of a contact list or a fabric tensor. */
 int cmd_delta(int argc, char **argv);
 

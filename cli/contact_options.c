@@ -1,5 +1,7 @@
 #include "cli/contact_options.h"
 
+#include "cli/format_options.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +75,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   contact_options *chosen = state->input;
   hypofab_contact_format *format = &chosen->format;
   switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = format; break;
     case KEY_ID1: format->id1 = text; break;
     case KEY_ID2: format->id2 = text; break;
     case KEY_NX: format->nx = text; break;
@@ -94,15 +97,25 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       chosen->n_files = state->argc - state->next;
       chosen->file = chosen->files[0];
       break;
-    case ARGP_KEY_END: check(state, chosen); break;
+    case ARGP_KEY_END:
+      check(state, chosen);
+      if (!chosen->has_tensor) format_show_progress(format);
+      break;
     default: return ARGP_ERR_UNKNOWN;
   }
   return 0;
 }
 
-const struct argp contact_argp = {.options = options, .parser = parse};
+static const struct argp_child children[] = {{.argp = &format_argp, .group = 3}, {0}};
+
+const struct argp contact_argp = {.options = options, .parser = parse, .children = children};
 
 hypofab_status contact_options_fabric(const contact_options *chosen, hypofab_fabric *fabric) {
-  return chosen->has_tensor ? hypofab_fabric_from_tensor(chosen->N, fabric)
-                            : hypofab_fabric_read(chosen->file, &chosen->format, fabric);
+  if (chosen->has_tensor) return hypofab_fabric_from_tensor(chosen->N, fabric);
+  hypofab_fabric_sum *sum;
+  hypofab_status status = hypofab_fabric_sum_read(chosen->file, &chosen->format, &sum);
+  if (!status) status = hypofab_fabric_sum_result(sum, fabric, chosen->sample);
+  if (!status && chosen->partial) status = hypofab_fabric_sum_write(sum, chosen->partial);
+  hypofab_fabric_sum_free(sum);
+  return status;
 }

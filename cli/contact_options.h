@@ -19,6 +19,8 @@ typedef struct contact_options {
   bool has_tensor; /**< N is given */
   double N[6];
   hypofab_contact_format format;
+  const char *partial;    /**< where to write the sums that `hypofab merge` takes; NULL: nowhere */
+  hypofab_sample *sample; /**< set after parsing: filled with the fabric, except for N; NULL: not wanted */
 } contact_options;
 
 /** Child parser for argp; its input is a contact_options. */

@@ -23,6 +23,7 @@ static const struct command {
     {"fit-c", cmd_fit_c, "the c of the weight f(a) that matches given directional stiffnesses best"},
     {"changes", cmd_changes, "contacts lost, gained and turned between snapshots, and the fabric they change"},
     {"describe", cmd_describe, "everything that the contacts of one sample, or of a series, tell of fabric and forces"},
+    {"merge", cmd_merge, "fabric of a sample from the sums of its parts"},
     {"delta", cmd_delta, "initial intergranular strain from a contact list or a fabric tensor"},
 };
 

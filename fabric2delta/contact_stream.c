@@ -152,15 +152,24 @@ static hypofab_status end_stream(contact_stream *stream) {
   return stream->refused ? refuse_all(stream) : HYPOFAB_OK;
 }
 
+/* Whoever shows progress learns that it is over, well or not. */
+static void tell_end(const contact_stream *stream) {
+  const hypofab_contact_format *format = stream->format;
+  if (format->progress) format->progress("reading contacts", 1.0, format->progress_user);
+}
+
 static hypofab_status next_chunk(contact_stream *stream) {
   stream->position = 0;
   hypofab_status status = contact_pipeline_take(&stream->pipeline, &stream->chunk);
-  if (status || !stream->chunk) return status ? status : end_stream(stream);
+  if (!status && !stream->chunk) status = end_stream(stream);
+  if (status || !stream->chunk) return tell_end(stream), status;
   stream->report.listed += (int64_t)stream->chunk->count;
   const hypofab_contact_format *format = stream->format;
-  if (format->progress && stream->chunk->fraction >= 0.0 &&
-      format->progress("reading contacts", stream->chunk->fraction, format->progress_user))
+  const double fraction = stream->chunk->fraction < 0.99 ? stream->chunk->fraction : 0.99;
+  if (format->progress && fraction >= 0.0 && format->progress("reading contacts", fraction, format->progress_user)) {
+    tell_end(stream);
     return hypofab_fail(HYPOFAB_INTERRUPTED, "%s: reading was interrupted", stream->reader.input.path);
+  }
   return HYPOFAB_OK;
 }
 

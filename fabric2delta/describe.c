@@ -68,10 +68,18 @@ hypofab_status hypofab_describe_file(const char *path, const hypofab_contact_for
                                      const hypofab_describe_options *options, hypofab_description *description) {
   if (!path || !description) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: a NULL pointer was given");
   hypofab_fabric fabric;
-  hypofab_status status = hypofab_fabric_read(path, format, &fabric);
+  hypofab_sample sample;
+  hypofab_fabric_sum *sum;
+  hypofab_status status = hypofab_fabric_sum_read(path, format, &sum);
+  if (!status) status = hypofab_fabric_sum_result(sum, &fabric, &sample);
+  hypofab_fabric_sum_free(sum);
   if (status) return status;
+  /* What the files tell stands in for what the options leave open. */
+  hypofab_describe_options chosen = options ? *options : (hypofab_describe_options){0};
+  if (!chosen.dimension && format) chosen.dimension = format->dimension;
+  if (chosen.volume == 0.0 && sample.volume > 0.0) chosen.volume = sample.volume;
   const contact_source source = {.visit = visit_file, .path = path, .format = format};
-  return describe(&source, options, &fabric, NULL, description);
+  return describe(&source, &chosen, &fabric, NULL, description);
 }
 
 /* ------------------------------------------------------------------ memory */
