@@ -94,7 +94,7 @@ static hypofab_status parse_text(const contact_reader *reader, contact_chunk *ch
   return HYPOFAB_OK;
 }
 
-static hypofab_status refuse_normal(const table *data, const char *line, const char *end, int64_t number,
+static hypofab_status refuse_normal(const table *data, bool plane, const char *line, const char *end, int64_t number,
                                     contact_problem problem) {
   char cell[3][TABLE_CELL];
   double n[3] = {0.0, 0.0, 0.0};
@@ -109,13 +109,13 @@ static hypofab_status refuse_normal(const table *data, const char *line, const c
   if (!column[ROLE_NX])
     return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the branch vector has no length; expected two different centres",
                         data->input->path, (long long)number);
-  const double length = hypot(hypot(n[0], n[1]), n[2]);
+  const double length = hypot(hypot(n[0], n[1]), plane ? 0.0 : n[2]);
   return hypofab_fail(HYPOFAB_BAD_FILE,
-                      "%s:%lld: columns %d, %d, %d (%s, %s, %s): the normal (%s, %s, %s) has length %.6g; "
+                      "%s:%lld: columns %d, %d, %d (%s, %s, %s): the normal (%s, %s, %s) has length %.6g%s; "
                       "expected a %s",
                       data->input->path, (long long)number, column[ROLE_NX], column[ROLE_NX + 1], column[ROLE_NX + 2],
                       name[0] ? name[0] : "nx", name[1] ? name[1] : "ny", name[2] ? name[2] : "nz", cell[0], cell[1],
-                      cell[2], length,
+                      cell[2], length, plane ? " in the plane" : "",
                       problem == CONTACT_NOT_UNIT ? "unit vector (length 1 within 0.001)"
                                                   : "unit vector (length 1 within 0.001): a contact has a direction");
 }
@@ -138,7 +138,7 @@ static hypofab_status refuse_text(const contact_reader *reader, const contact_ch
   table_value values[CONTACT_ROLES] = {{0}};
   switch (problem) {
     case CONTACT_ZERO_NORMAL:
-    case CONTACT_NOT_UNIT: return refuse_normal(data, line, end, number, problem);
+    case CONTACT_NOT_UNIT: return refuse_normal(data, reader->layout.plane, line, end, number, problem);
     case CONTACT_NOT_FINITE: {
       hypofab_status status = table_row(data, line, end, number, values);
       const int k = find_infinite(data, values);
