@@ -36,7 +36,7 @@ static hypofab_status reserve(const lines *input, char **buffer, size_t *reserve
 
 /* More bytes behind those of the window, which moves to the front. */
 static hypofab_status widen(lines *input) {
-  memmove(input->window, input->window + input->begin, input->end - input->begin);
+  if (input->begin > 0) memmove(input->window, input->window + input->begin, input->end - input->begin);
   input->end -= input->begin;
   input->begin = 0;
   hypofab_status status = reserve(input, &input->window, &input->window_size, input->end + FIRST_WINDOW);
