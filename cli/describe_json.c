@@ -111,36 +111,60 @@ static void add_significance(const hypofab_description *d, json_t *object) {
   uncertainty_to_json(&found, false, object);
 }
 
+static json_t *sample(const hypofab_description *d) {
+  return json_pack("{s:o, s:o, s:o, s:o}", "volume", number_to_json(d->volume), "solid_volume",
+                   number_to_json(d->solid_volume), "void_ratio", number_to_json(d->void_ratio), "rattlers",
+                   d->fabric.rattlers >= 0 ? json_integer(d->fabric.rattlers) : json_null());
+}
+
+static json_t *weighted(const hypofab_description *d) {
+  static const char *const names[HYPOFAB_N_WEIGHTS] = {"number", "normal_force", "area", "branch_length"};
+  json_t *object = json_object();
+  for (int k = 0; k < HYPOFAB_N_WEIGHTS; k++)
+    json_object_set_new(object, names[k], directions(d->dimension, &d->weighted[k]));
+  return object;
+}
+
+static json_t *per_particle(const hypofab_description *d) {
+  return json_pack("{s:o, s:o, s:o}", "fabric", tensor(d->dimension, 2, d->fabric_per_particle), "anisotropy",
+                   number_to_json(d->anisotropy_per_particle), "fabric_by_solid_volume",
+                   tensor(d->dimension, 2, d->fabric_by_solid_volume));
+}
+
 json_t *description_to_json(const char *file, const hypofab_description *d) {
   const int dim = d->dimension;
-  json_t *object = json_object();
-  json_t *fabric = fabric_to_json(&d->fabric);
-  json_t *more = json_pack(
-      "{s:s, s:i, s:o, s:o, s:{s:o, s:o, s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:o, s:o}, s:o, s:o, s:{s:o, "
-      "s:o}, s:o}",
-      "file", file, "dimension", dim,                                                                //
-      "component_order", component_names(dim, 2), "component_order_rank4", component_names(dim, 4),  //
-      "weighted", "number", directions(dim, &d->weighted[HYPOFAB_BY_NUMBER]), "normal_force",
-      directions(dim, &d->weighted[HYPOFAB_BY_NORMAL_FORCE]), "area", directions(dim, &d->weighted[HYPOFAB_BY_AREA]),
-      "branch_length", directions(dim, &d->weighted[HYPOFAB_BY_BRANCH_LENGTH]),            //
-      "branch", directions(dim, &d->branch), "long_axes", directions(dim, &d->long_axes),  //
-      "mean_branch_length", number_to_json(d->mean_branch_length),                         //
-      "mean_normal_force", number_to_json(d->mean_normal_force),                           //
-      "mean_shear_force", number_to_json(d->mean_shear_force),                             //
-      "per_particle", "fabric", tensor(dim, 2, d->fabric_per_particle), "anisotropy",
-      number_to_json(d->anisotropy_per_particle), "rattlers",
-      d->fabric.rattlers >= 0 ? json_integer(d->fabric.rattlers) : json_null(),                                  //
-      "harmonics", harmonics(dim, &d->harmonics), "stress", stress(dim, &d->stress),                             //
-      "forces", "from_moments", anisotropy(dim, &d->from_moments), "from_bins", anisotropy(dim, &d->from_bins),  //
-      "networks",
-      json_pack("{s:o, s:o, s:o}", "strong", network(dim, &d->strong), "weak", network(dim, &d->weak), "sliding",
-                network(dim, &d->sliding)));
-  if (!object || json_object_update(object, fabric) || json_object_update(object, more)) {
+  const struct {
+    const char *key;
+    json_t *value;
+  } members[] = {
+      {"file", json_string(file)},
+      {"dimension", json_integer(dim)},
+      {"component_order", component_names(dim, 2)},
+      {"component_order_rank4", component_names(dim, 4)},
+      {"sample", sample(d)},
+      {"weighted", weighted(d)},
+      {"branch", directions(dim, &d->branch)},
+      {"long_axes", directions(dim, &d->long_axes)},
+      {"mean_branch_length", number_to_json(d->mean_branch_length)},
+      {"mean_normal_force", number_to_json(d->mean_normal_force)},
+      {"mean_shear_force", number_to_json(d->mean_shear_force)},
+      {"per_particle", per_particle(d)},
+      {"harmonics", harmonics(dim, &d->harmonics)},
+      {"forces", json_pack("{s:o, s:o}", "from_moments", anisotropy(dim, &d->from_moments), "from_bins",
+                           anisotropy(dim, &d->from_bins))},
+      {"stress", stress(dim, &d->stress)},
+      {"networks", json_pack("{s:o, s:o, s:o}", "strong", network(dim, &d->strong), "weak", network(dim, &d->weak),
+                             "sliding", network(dim, &d->sliding))},
+  };
+  json_t *object = fabric_to_json(&d->fabric);
+  int failed = !object;
+  /* Setting to NULL, where memory ran out, fails; setting releases the value in any case. */
+  for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+    failed |= json_object_set_new(object, members[i].key, members[i].value);
+  if (failed) {
     json_decref(object);
-    object = NULL;
+    return NULL;
   }
-  json_decref(fabric);
-  json_decref(more);
   add_significance(d, object);
   return object;
 }

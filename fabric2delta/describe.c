@@ -1,4 +1,4 @@
-/* The public calls: contacts of a file, or of arrays in memory, handed block by block to a description. */
+/* The public call for contacts in memory. */
 #include <math.h>
 
 #include "base/message.h"
@@ -14,75 +14,6 @@ const char *hypofab_component_name(int rank, int index) {
   if (rank == 4 && index >= 0 && index < 15) return fourth[index];
   return NULL;
 }
-
-/* Contacts that can be visited more than once. */
-typedef struct contact_source {
-  hypofab_status (*visit)(const struct contact_source *source,
-                          hypofab_status (*take)(description_work *work, const contact *block, size_t n),
-                          description_work *work);
-  const char *path;
-  const hypofab_contact_format *format;
-  const hypofab_contacts *arrays;
-} contact_source;
-
-static hypofab_status take_second(description_work *work, const contact *block, size_t n) {
-  description_second(work, block, n);
-  return HYPOFAB_OK;
-}
-
-static hypofab_status describe(const contact_source *source, const hypofab_describe_options *options,
-                               const hypofab_fabric *fabric, const contact_moments *axes,
-                               hypofab_description *description) {
-  description_work work;
-  bool needs_second = false;
-  hypofab_description found;
-  hypofab_status status = description_begin(&work, options);
-  if (!status) status = source->visit(source, description_first, &work);
-  if (!status) status = description_end_first(&work, &needs_second);
-  if (!status && needs_second) status = source->visit(source, take_second, &work);
-  if (!status) status = description_finish(&work, fabric, axes, &found);
-  if (!status) *description = found;
-  description_free(&work);
-  return status;
-}
-
-/* -------------------------------------------------------------------- file */
-
-static hypofab_status visit_file(const contact_source *source,
-                                 hypofab_status (*take)(description_work *work, const contact *block, size_t n),
-                                 description_work *work) {
-  contact_stream *stream;
-  contact block[CONTACT_BLOCK];
-  hypofab_status status = contact_stream_open(source->path, source->format, &stream);
-  for (size_t n = 1; n && !status;) {
-    status = contact_stream_next(stream, block, CONTACT_BLOCK, &n);
-    if (!status && n) status = take(work, block, n);
-    if (status == HYPOFAB_BAD_ARGUMENT) /* take does not know the file */
-      status = hypofab_fail(HYPOFAB_BAD_FILE, "%s: %s", source->path, hypofab_last_message());
-  }
-  contact_stream_close(stream);
-  return status;
-}
-
-hypofab_status hypofab_describe_file(const char *path, const hypofab_contact_format *format,
-                                     const hypofab_describe_options *options, hypofab_description *description) {
-  if (!path || !description) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: a NULL pointer was given");
-  hypofab_fabric fabric;
-  hypofab_sample sample;
-  hypofab_fabric_sum *sum;
-  hypofab_status status = hypofab_fabric_sum_read(path, format, &sum);
-  if (!status) status = hypofab_fabric_sum_result(sum, &fabric, &sample);
-  hypofab_fabric_sum_free(sum);
-  if (status) return status;
-  /* What the files tell stands in for what the options leave open. */
-  hypofab_describe_options chosen = options ? *options : (hypofab_describe_options){0};
-  if (!chosen.dimension && format) chosen.dimension = format->dimension;
-  if (chosen.volume == 0.0 && sample.volume > 0.0) chosen.volume = sample.volume;
-  const contact_source source = {.visit = visit_file, .path = path, .format = format};
-  return describe(&source, &chosen, &fabric, NULL, description);
-}
-
-/* ------------------------------------------------------------------ memory */
 
 static void copy_vector(const double *vectors, size_t i, double to[3]) {
   for (int k = 0; vectors && k < 3; k++) to[k] = vectors[3 * i + (size_t)k];
@@ -101,14 +32,19 @@ static contact contact_at(const hypofab_contacts *arrays, size_t i) {
   return one;
 }
 
-static hypofab_status visit_arrays(const contact_source *source,
-                                   hypofab_status (*take)(description_work *work, const contact *block, size_t n),
-                                   description_work *work) {
+static hypofab_status take_second(description_work *work, const contact *block, size_t n) {
+  description_second(work, block, n);
+  return HYPOFAB_OK;
+}
+
+/* One pass over all contacts. */
+static hypofab_status visit(const hypofab_contacts *arrays,
+                            hypofab_status (*take)(description_work *work, const contact *block, size_t n),
+                            description_work *work) {
   contact block[CONTACT_BLOCK];
   hypofab_status status = HYPOFAB_OK;
-  for (size_t begin = 0, n; begin < source->arrays->count && !status; begin += n) {
-    for (n = 0; n < CONTACT_BLOCK && begin + n < source->arrays->count; n++)
-      block[n] = contact_at(source->arrays, begin + n);
+  for (size_t begin = 0, n; begin < arrays->count && !status; begin += n) {
+    for (n = 0; n < CONTACT_BLOCK && begin + n < arrays->count; n++) block[n] = contact_at(arrays, begin + n);
     status = take(work, block, n);
   }
   return status;
@@ -151,18 +87,28 @@ static hypofab_status count_contacts(const hypofab_contacts *arrays, contact_sum
 }
 
 /* Moments of the long axes of particles, whatever their length. */
-static hypofab_status sum_axes(const hypofab_contacts *arrays, int dimension, contact_moments *axes) {
-  first_sums sums = {0};
-  for (size_t i = 0; i < arrays->long_axis_count; i++) {
-    contact axis = {0};
-    copy_vector(arrays->long_axes, i, axis.normal);
-    double length = hypot(hypot(axis.normal[0], axis.normal[1]), axis.normal[2]);
+static hypofab_status sum_axes(const hypofab_contacts *arrays, contact_moments *axes) {
+  for (size_t i = 0; i < arrays->long_axis_count && arrays->long_axes; i++) {
+    double axis[3];
+    copy_vector(arrays->long_axes, i, axis);
+    const double length = hypot(hypot(axis[0], axis[1]), axis[2]);
     if (!isfinite(length) || !(length > 0.0))
       return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "long axis %zu has length %g; expected a direction", i + 1, length);
-    hypofab_add_first_pass(1, &axis, dimension, -1.0, &sums);
+    for (int k = 0; k < 3; k++) axis[k] /= length;
+    hypofab_add_direction(axis, axes);
   }
-  *axes = sums.weighted[HYPOFAB_BY_NUMBER];
   return HYPOFAB_OK;
+}
+
+static hypofab_status describe(const hypofab_contacts *contacts, description_work *work, const hypofab_fabric *fabric,
+                               hypofab_description *description) {
+  bool needs_second = false;
+  description_extras extras = {0};
+  hypofab_status status = sum_axes(contacts, &extras.long_axes);
+  if (!status) status = visit(contacts, description_first, work);
+  if (!status) status = description_end_first(work, &needs_second);
+  if (!status && needs_second) status = visit(contacts, take_second, work);
+  return status ? status : description_finish(work, fabric, &extras, description);
 }
 
 hypofab_status hypofab_describe(const hypofab_contacts *contacts, const hypofab_describe_options *options,
@@ -172,14 +118,15 @@ hypofab_status hypofab_describe(const hypofab_contacts *contacts, const hypofab_
   if (!contacts->count) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: no contacts; expected at least one");
   if (!contacts->id1 != !contacts->id2)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: one of id1 and id2 is given; expected both or none");
-  contact_sum sum = {0};
-  contact_moments axes = {0};
+  description_work work;
   hypofab_fabric fabric;
-  hypofab_status status = count_contacts(contacts, &sum, &fabric);
-  if (!status && contacts->long_axes)
-    status = sum_axes(contacts, options && options->dimension ? options->dimension : 3, &axes);
-  const contact_source source = {.visit = visit_arrays, .arrays = contacts};
-  if (!status) status = describe(&source, options, &fabric, contacts->long_axes ? &axes : NULL, description);
+  hypofab_description found;
+  hypofab_status status = description_begin(&work, options);
+  contact_sum sum = {.plane = work.options.dimension == 2};
+  if (!status) status = count_contacts(contacts, &sum, &fabric);
+  if (!status) status = describe(contacts, &work, &fabric, &found);
+  if (!status) *description = found;
   contact_sum_free(&sum);
+  description_free(&work);
   return status;
 }

@@ -167,18 +167,30 @@ static void describe_stress(const description_work *work, hypofab_contact_stress
   for (size_t i = 0; i < sizeof *stress / sizeof(double); i++) numbers[i] = NAN;
 }
 
+static void describe_sample(const description_extras *extras, hypofab_description *description) {
+  description->volume = description->solid_volume = description->void_ratio = NAN;
+  if (extras->sample) {
+    description->volume = extras->sample->volume;
+    description->solid_volume = extras->sample->solid_volume;
+    description->void_ratio = extras->sample->void_ratio;
+  }
+  for (int k = 0; k < 6; k++)
+    description->fabric_by_solid_volume[k] =
+        extras->particle_volume > 0.0 ? extras->volume_weighted[k] / extras->particle_volume : NAN;
+}
+
 hypofab_status description_finish(const description_work *work, const hypofab_fabric *fabric,
-                                  const contact_moments *axes, hypofab_description *description) {
-  static const contact_moments none = {0};
+                                  const description_extras *extras, hypofab_description *description) {
   const int dimension = work->options.dimension;
   hypofab_status status = HYPOFAB_OK;
   *description = (hypofab_description){.dimension = dimension};
   describe_fabric(work, fabric, description);
   describe_means(work, description);
+  describe_sample(extras, description);
   for (int k = 0; k < HYPOFAB_N_WEIGHTS && !status; k++)
     status = description_directions(dimension, &work->first.weighted[k], &description->weighted[k]);
   if (!status) status = description_directions(dimension, &work->first.branch, &description->branch);
-  if (!status) status = description_directions(dimension, axes ? axes : &none, &description->long_axes);
+  if (!status) status = description_directions(dimension, &extras->long_axes, &description->long_axes);
   if (!status) status = describe_harmonics(work, &description->harmonics);
   if (!status) status = force_anisotropy_from_sums(work, &description->from_moments);
   if (!status) status = force_anisotropy_from_bins(work, &description->from_bins);

@@ -36,13 +36,20 @@ hypofab_status description_end_first(description_work *work, bool *needs_second)
 /** Add contacts, the same as in the first pass, to the second. */
 void description_second(description_work *work, const contact *block, size_t n);
 
+/** What is not summed over contacts. All zero: nothing of it is known. */
+typedef struct description_extras {
+  contact_moments long_axes;    /**< of particles */
+  double particle_volume;       /**< of all particles */
+  double volume_weighted[6];    /**< sum over contacts of (V1 + V2) n n */
+  const hypofab_sample *sample; /**< NULL: not known */
+} description_extras;
+
 /**
  * @brief The description.
  * @param fabric counts, coordination numbers and fabric of the same contacts
- * @param axes   moments of the long axes of particles, or NULL
  */
 hypofab_status description_finish(const description_work *work, const hypofab_fabric *fabric,
-                                  const contact_moments *axes, hypofab_description *description);
+                                  const description_extras *extras, hypofab_description *description);
 
 /** Free the memory. */
 void description_free(description_work *work);

@@ -47,6 +47,9 @@ void hypofab_add_first_pass(int n, const contact *block, int dimension, double s
 void hypofab_add_second_pass(int n, const contact *block, const double anisotropy[6], double mean_force,
                              second_sums *sums);
 
+/** Add one direction, a unit vector, with weight 1. */
+void hypofab_add_direction(const double n[3], contact_moments *moments);
+
 /** All harmonics of even degree in a direction (harmonics.f90). */
 void hypofab_harmonics_of(int dimension, const double n[3], double y[HYPOFAB_N_HARMONICS]);
 

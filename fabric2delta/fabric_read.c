@@ -44,21 +44,24 @@ static hypofab_status count_particles(const hypofab_fabric_sum *sum, const char 
   return HYPOFAB_OK;
 }
 
-static hypofab_status read_stream(contact_stream *stream, hypofab_fabric_sum *sum) {
+static hypofab_status read_stream(contact_stream *stream, const fabric_sum_observer *observer,
+                                  hypofab_fabric_sum *sum) {
   hypofab_status status = enter_particles(stream, sum);
+  if (!status && observer) status = observer->begin(stream, observer->user);
   contact block[CONTACT_BLOCK];
   if (sum->region && sum->contacts.particles_known) contact_stream_deliver_outside(stream);
   for (size_t n = 1; n && !status;) {
     status = contact_stream_next(stream, block, CONTACT_BLOCK, &n);
     if (!status) status = contact_sum_add_block(&sum->contacts, block, n);
+    if (!status && observer) status = observer->take(block, n, observer->user);
   }
   sum->report = *contact_stream_report(stream);
   sum->volume = contact_stream_volume(stream);
   return status;
 }
 
-hypofab_status hypofab_fabric_sum_read(const char *path, const hypofab_contact_format *format,
-                                       hypofab_fabric_sum **sum) {
+hypofab_status fabric_sum_read_observed(const char *path, const hypofab_contact_format *format,
+                                        const fabric_sum_observer *observer, hypofab_fabric_sum **sum) {
   static const hypofab_contact_format defaults = {0};
   if (!path || !sum) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "contact list: a NULL pointer was given");
   *sum = NULL;
@@ -71,7 +74,7 @@ hypofab_status hypofab_fabric_sum_read(const char *path, const hypofab_contact_f
   contact_stream *stream;
   int64_t particles;
   hypofab_status status = contact_stream_open(path, format, &stream);
-  if (!status) status = read_stream(stream, found);
+  if (!status) status = read_stream(stream, observer, found);
   if (!status) status = count_particles(found, format->particle_file, &particles);
   contact_stream_close(stream);
   if (status)
@@ -79,6 +82,11 @@ hypofab_status hypofab_fabric_sum_read(const char *path, const hypofab_contact_f
   else
     *sum = found;
   return status;
+}
+
+hypofab_status hypofab_fabric_sum_read(const char *path, const hypofab_contact_format *format,
+                                       hypofab_fabric_sum **sum) {
+  return fabric_sum_read_observed(path, format, NULL, sum);
 }
 
 /* Positive, or not known. */

@@ -17,4 +17,15 @@ struct hypofab_fabric_sum {
   hypofab_contact_report report;
 };
 
+/** Somebody who sums more of the same contacts in the same pass. */
+typedef struct fabric_sum_observer {
+  hypofab_status (*begin)(const contact_stream *stream, void *user);      /**< the file is open */
+  hypofab_status (*take)(const contact *block, size_t count, void *user); /**< contacts, also CONTACT_OUTSIDE */
+  void *user;                                                             /**< handed to both */
+} fabric_sum_observer;
+
+/** hypofab_fabric_sum_read with an observer, which may be NULL. */
+hypofab_status fabric_sum_read_observed(const char *path, const hypofab_contact_format *format,
+                                        const fabric_sum_observer *observer, hypofab_fabric_sum **sum);
+
 #endif

@@ -4,7 +4,7 @@ module hypofab_moments
   use hypofab_rank4, only: fourth_power
   implicit none
   private
-  public :: moments_t, add_direction
+  public :: moments_t, add_direction, add_unweighted
 
   !> contact_moments of description_sums.h, member by member.
   type, bind(C) :: moments_t
@@ -30,5 +30,12 @@ contains
                      weight*[n(1) * n(1), n(2) * n(2), n(3) * n(3), n(1) * n(2), n(1) * n(3), n(2) * n(3)]
     moments%fourth = moments%fourth + weight * fourth_power(n)
   end subroutine add_direction
+
+  !> add_direction with weight 1 for C.
+  pure subroutine add_unweighted(n, moments) bind(C, name='hypofab_add_direction')
+    real(wp), intent(in) :: n(3)
+    type(moments_t), intent(inout) :: moments
+    call add_direction(moments, n, 1.0_wp)
+  end subroutine add_unweighted
 
 end module hypofab_moments

@@ -90,12 +90,15 @@ typedef struct hypofab_network {
 
 /** Everything that is computed from the contacts of one sample. */
 typedef struct hypofab_description {
-  int dimension;                  /**< 3 or 2 */
-  hypofab_fabric fabric;          /**< as hypofab_fabric_read gives it; in the plane with the factors of the plane:
-                                       F = 4 (N - 1/2 1), a = sqrt(1/2 F:F) */
-  double fabric_per_particle[6];  /**< (2/N_p) sum n n, N_p without rattlers, which have fewer than two contacts
-                                       (paper 001, Eq. 1); its trace is paper 001's Z */
-  double anisotropy_per_particle; /**< paper 001's A: largest minus smallest principal value of it */
+  int dimension;                    /**< 3 or 2 */
+  hypofab_fabric fabric;            /**< as hypofab_fabric_read gives it; in the plane with the factors of the plane:
+                                         F = 4 (N - 1/2 1), a = sqrt(1/2 F:F) */
+  double fabric_per_particle[6];    /**< (2/N_p) sum n n, N_p without rattlers, which have fewer than two contacts
+                                         (paper 001, Eq. 1); its trace is paper 001's Z */
+  double fabric_by_solid_volume[6]; /**< (1/V_s) sum over particles V_p sum over their contacts n n: independent of the
+                                         volume of voids; its trace is the coordination number weighted by volume */
+  double volume, solid_volume, void_ratio; /**< of the sample, as in hypofab_sample */
+  double anisotropy_per_particle;          /**< paper 001's A: largest minus smallest principal value of it */
   hypofab_direction_fabric weighted[HYPOFAB_N_WEIGHTS]; /**< fabric of contact normals */
   hypofab_direction_fabric branch;                      /**< fabric of the directions of branch vectors */
   hypofab_direction_fabric long_axes;                   /**< fabric of the long axes of particles (paper 003) */
