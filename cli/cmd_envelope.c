@@ -1,3 +1,4 @@
+#include <jansson.h>
 #include <stdio.h>
 
 #include "cli/commands.h"
@@ -13,11 +14,55 @@ static const char text[] =
     "Each series of an envelope probes one state, or the end of a test, with strains or stresses of one size in many "
     "directions: of the axisymmetric plane, of any plane, of the sphere of principal directions, of all six "
     "components. "
-    "docs/deck.md describes decks and columns, docs/probes.md what they mean.\n"
+    "docs/deck.md describes decks and columns, docs/probes.md what they mean. Ctrl-C keeps the series that are "
+    "complete.\n"
     "\n"
     "Examples:\n"
     "  hypofab envelope examples/response_envelopes.yaml\n"
     "  hypofab envelope examples/stress_probes.yaml -o results/probes";
+
+static const char *text_of(const json_t *object, const char *key) {
+  const char *value = json_string_value(json_object_get(object, key));
+  return value ? value : "-";
+}
+
+static double number_of(const json_t *object, const char *key) {
+  return json_number_value(json_object_get(object, key));
+}
+
+static void print_series(const json_t *series, double probes, const char *unit) {
+  printf("  %-10s %.0f of %.0f probes", text_of(series, "name"), number_of(series, "answered"), probes);
+  const json_t *largest = json_object_get(series, "largest_stiffness");
+  if (json_is_object(largest))
+    printf("; stiffness %.6g to %.6g %s", number_of(json_object_get(series, "smallest_stiffness"), "value"),
+           number_of(largest, "value"), unit);
+  const json_t *fit = json_object_get(series, "ellipsoid"), *left = json_object_get(series, "irrecoverable_ellipsoid");
+  if (json_is_object(fit)) printf("; nonlinearity %.3g", number_of(fit, "nonlinearity"));
+  if (json_is_real(json_object_get(left, "straightness")))
+    printf("; irrecoverable part %.4f straight", number_of(left, "straightness"));
+  if (number_of(series, "status") != 0) printf("; %s", text_of(series, "message"));
+  putchar('\n');
+}
+
+/* One line per envelope and series, from the summary that has just been written. */
+static void print_envelopes(const char *directory) {
+  char path[4200];
+  snprintf(path, sizeof path, "%s/envelopes.json", directory);
+  json_t *summary = json_load_file(path, 0, NULL), *envelope, *series;
+  size_t i, j;
+  json_array_foreach(json_object_get(summary, "envelopes"), i, envelope) {
+    if (!json_is_string(json_object_get(envelope, "file"))) {
+      printf("%-12s not computed\n", text_of(envelope, "name"));
+      continue;
+    }
+    printf("%-12s done; %s/%s", text_of(envelope, "name"), directory, text_of(envelope, "file"));
+    if (json_is_string(json_object_get(envelope, "vtk"))) printf(", %s/%s", directory, text_of(envelope, "vtk"));
+    putchar('\n');
+    json_array_foreach(json_object_get(envelope, "series"), j, series)
+        print_series(series, number_of(envelope, "probes"), text_of(summary, "unit"));
+  }
+  json_decref(summary);
+}
 
 int cmd_envelope(int argc, char **argv) {
   const deck_arguments arguments = deck_arguments_parse(argc, argv, text, 1);
@@ -34,9 +79,8 @@ int cmd_envelope(int argc, char **argv) {
   progress_bar bar = progress_start();
   status = hypofab_study_envelopes(study, arguments.directory, progress_show, &bar);
   progress_end(&bar);
-  for (int i = 0; !status && i < hypofab_study_envelope_count(study); ++i)
-    printf("%-12s done; %s/%s.csv\n", hypofab_study_envelope_name(study, i), arguments.directory,
-           hypofab_study_envelope_name(study, i));
   hypofab_study_free(study);
-  return status ? cli_exit(status) : cli_finish_output();
+  if (status < HYPOFAB_BAD_MATERIAL) print_envelopes(arguments.directory);
+  const int written = cli_finish_output();
+  return status ? cli_exit(status) : written;
 }

@@ -159,11 +159,26 @@ static void results_go_where_asked_or_beside_the_user(void **state) {
   assert_int_equal(scratch_count(scratch_path("here/and/there")), 3);
   run = program("envelope", EXAMPLE("response_envelopes.yaml"), NULL);
   expect(&run, 0, "figure_1     done; response_envelopes_out/figure_1.csv\n", "");
+  expect(&run, 0, "\n  without    360 of 360 probes; stiffness ", "");
   expect_silence(&run);
   run_free(&run);
   table t = table_read(scratch_path("response_envelopes_out/figure_1.csv"));
   assert_int_equal(t.rows, 3 * 360);
   table_free(&t);
+}
+
+static void probes_without_answer_are_told(void **state) {
+  (void)state;
+  scratch_write(
+      "far.yaml",
+      "materials:\n  - {name: s, sand: paper000}\nstates:\n"
+      "  - {name: a, material: s, p: 100, void_ratio: 0.7, delta: {zero: true}}\n"
+      "envelopes:\n  - {name: e, axis: y, probes: 8, size: 0.02, unload: true, series: [{name: x, state: a}]}\n");
+  program_run run = program("envelope", "far.yaml", "-o", "probes", NULL);
+  expect(&run, 1, "e            done; probes/e.csv\n  x          ", "hypofab: envelope 'e', series 'x': ");
+  expect(&run, 1, " of 8 probes; ", " of 8 probes have no answer; the first is probe ");
+  run_free(&run);
+  assert_int_equal(scratch_count(scratch_path("probes")), 2);
 }
 
 static void a_place_that_cannot_be_written_has_exit_code_3(void **state) {
@@ -357,6 +372,7 @@ int main(void) {
       TEST(example_decks_of_element_tests_run_to_their_ends),
       TEST(presets_are_listed_with_their_parameters),
       TEST(results_go_where_asked_or_beside_the_user),
+      TEST(probes_without_answer_are_told),
       TEST(a_place_that_cannot_be_written_has_exit_code_3),
       TEST(a_physical_stop_has_exit_code_1_and_says_so),
       TEST(ctrl_c_keeps_the_rows_and_says_so),
