@@ -126,7 +126,7 @@ static hypofab_status probe_envelope(run *run, const char *directory, probe_resu
     const hypofab_status status = probe_series(run, result);
     if (!status) continue;
     result->status = status;
-    memcpy(result->message, hypofab_last_message(), sizeof result->message);
+    if (!*result->message) memcpy(result->message, hypofab_last_message(), sizeof result->message);
     if (status >= HYPOFAB_BAD_MATERIAL)
       return hypofab_fail(status, "envelope '%s', series '%s': %s", given->name, given->series[run->series].name,
                           result->message);
