@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "driver/tensor.h"
+
 /* Planes of the first search, about 6 degrees apart: the determinant is a polynomial of degree 6 in the normal. */
 enum { N_PLANES = 600 };
 /* The best of them that are this far apart start a refined search: cosine of 20 degrees. */
@@ -75,7 +77,7 @@ static double determinant_on(const search *s, const double normal[3]) {
   if (s->branch != HYPOFAB_PLAIN || !(linear > 0.0)) return linear;
   double mode[6];
   plain_mode(s->parts, Q, normal, mode);
-  return linear * (1.0 - sqrt(linear_dot(mode, mode)));
+  return linear * (1.0 - tensor_norm(mode));
 }
 
 /* Unit normal at coordinates on the tangent plane of the sphere at s->centre. */
@@ -187,7 +189,7 @@ static void critical_tensor(const search *s, const double normal[3], double Q[9]
   if (s->branch != HYPOFAB_PLAIN) return;
   double mode[6], stiffness[36];
   plain_mode(s->parts, Q, normal, mode);
-  const double size = sqrt(linear_dot(mode, mode));
+  const double size = tensor_norm(mode);
   if (!(size > 0.0)) return;
   for (int i = 0; i < 6; i++) mode[i] /= -size;
   linear_branch(s->parts, mode, stiffness);

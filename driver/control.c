@@ -9,14 +9,11 @@
 #include "base/message.h"
 #include "driver/course.h"
 #include "driver/quantity.h"
+#include "driver/tensor.h"
 
 /* Smallest ratio of pivots, rows scaled to 1, that still counts as a regular control. */
 static const double singular = 1e-12;
 static const char singular_text[] = "the prescribed rates are singular at this state";
-
-static double dot(const double a[6], const double b[6]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
-}
 
 /* The conditions at one state, solved on the reversal branch (without intergranular strain: without N). */
 typedef struct solved {
@@ -122,13 +119,13 @@ static hypofab_status solve(const hypofab_material *material, const hypofab_stat
 }
 
 /* g = det(loading)/det(reversal); see control_choose_branch. */
-static double determinant_ratio(const solved *s) { return 1.0 + dot(s->direction, s->response); }
+static double determinant_ratio(const solved *s) { return 1.0 + tensor_dot(s->direction, s->response); }
 
 /* Without intergranular strain D = u - z |D|; squared, a quadratic equation for |D| >= 0. */
 static hypofab_status plain_size(const solved *s, double *size) {
   double root[2];
-  const double a = dot(s->response, s->response) - 1.0, b = -2.0 * dot(s->reversal, s->response);
-  const double c = dot(s->reversal, s->reversal);
+  const double a = tensor_dot(s->response, s->response) - 1.0, b = -2.0 * tensor_dot(s->reversal, s->response);
+  const double c = tensor_dot(s->reversal, s->reversal);
   const int n_real = gsl_poly_solve_quadratic(a, b, c, &root[0], &root[1]);
   int n_admissible = 0;
   for (int i = 0; i < n_real; i++)
@@ -171,7 +168,7 @@ hypofab_status control_solve(const hypofab_material *material, const hypofab_sta
     if (!(g > singular))
       return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
                           "the prescribed rates lose their solution at this state (a peak or limit state)");
-    factor = dot(s.direction, s.reversal) / g;
+    factor = tensor_dot(s.direction, s.reversal) / g;
   }
   for (int i = 0; i < 6; i++) rates->stretching[i] = s.reversal[i] - factor * s.response[i];
   for (int i = 0; i < 6; i++) {
@@ -179,8 +176,8 @@ hypofab_status control_solve(const hypofab_material *material, const hypofab_sta
     for (int j = 0; j < 6; j++) rates->stress_rate[i] += s.stiffness[6 * i + j] * rates->stretching[j];
   }
   impose(step, s.rate, rates);
-  const double size = sqrt(dot(rates->stretching, rates->stretching));
-  rates->along = size > 0.0 ? dot(s.direction, rates->stretching) / size : 0.0;
+  const double size = tensor_norm(rates->stretching);
+  rates->along = size > 0.0 ? tensor_dot(s.direction, rates->stretching) / size : 0.0;
   return HYPOFAB_OK;
 }
 
@@ -194,7 +191,7 @@ hypofab_status control_choose_branch(const hypofab_material *material, const hyp
     *branch = HYPOFAB_PLAIN;
     return plain_size(&s, &size);
   }
-  const double along = dot(s.direction, s.reversal), g = determinant_ratio(&s);
+  const double along = tensor_dot(s.direction, s.reversal), g = determinant_ratio(&s);
   if (!(g > 0.0))
     return along < 0.0
                ? hypofab_fail(HYPOFAB_NOT_UNIQUE, "two strain rates satisfy the prescribed rates, one on each branch")

@@ -8,16 +8,13 @@
 
 #include "driver/course.h"
 #include "driver/integrate_method.h"
-
-static double dot(const double a[6], const double b[6]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
-}
+#include "driver/tensor.h"
 
 /* The part of the stress rate that is not linear over all D: what multiplies jump (hypofab_linear_parts). */
 static double jump_factor(hypofab_branch branch, const double direction[6], const double D[6]) {
   switch (branch) {
-    case HYPOFAB_PLAIN: return sqrt(dot(D, D));
-    case HYPOFAB_LOADING: return dot(direction, D);
+    case HYPOFAB_PLAIN: return tensor_norm(D);
+    case HYPOFAB_LOADING: return tensor_dot(direction, D);
     default: return 0.0;
   }
 }

@@ -2,10 +2,6 @@
 
 #include <string.h>
 
-double linear_dot(const double a[6], const double b[6]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
-}
-
 hypofab_status linear_parts_of(const hypofab_material *material, const hypofab_state *state, linear_parts *parts) {
   hypofab_status status =
       hypofab_linear_parts(material, state, parts->reversal, parts->jump, parts->direction, &parts->model);

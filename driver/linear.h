@@ -28,7 +28,4 @@ hypofab_status linear_parts_of(const hypofab_material *material, const hypofab_s
  */
 void linear_branch(const linear_parts *parts, const double along[6], double stiffness[36]);
 
-/** Double contraction of two symmetric tensors given by six tensor components. */
-double linear_dot(const double a[6], const double b[6]);
-
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "driver/stability_quantity.h"
+#include "driver/tensor.h"
 
 static const char *const names[HYPOFAB_N_QUANTITIES] = {"time",
                                                         "eps_xx",
@@ -81,19 +82,6 @@ hypofab_quantity hypofab_quantity_find(const char *name) {
   return (hypofab_quantity)i;
 }
 
-static double trace(const double t[6]) { return t[0] + t[1] + t[2]; }
-
-static double squared_norm(const double t[6]) {
-  return t[0] * t[0] + t[1] * t[1] + t[2] * t[2] + 2.0 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]);
-}
-
-/* |dev t|, from the deviator itself: tr(t t) - tr(t)^2/3 would cancel. */
-static double deviatoric_norm(const double t[6]) {
-  const double mean = trace(t) / 3.0;
-  const double d[6] = {t[0] - mean, t[1] - mean, t[2] - mean, t[3], t[4], t[5]};
-  return sqrt(squared_norm(d));
-}
-
 static const double degrees = 180.0 / 3.14159265358979323846;
 
 /* Principal values of -T, largest first. The cosine of 3 theta would lose half the digits at triaxial states. */
@@ -133,7 +121,7 @@ void quantity_plane(const double stress[6], int axis, int lateral, double *centr
 }
 
 static double pore_pressure(const observer *o, const test_state *state) {
-  double change = -o->water.stiffness * (trace(state->strain) - trace(o->start.strain));
+  double change = -o->water.stiffness * (tensor_trace(state->strain) - tensor_trace(o->start.strain));
   for (int i = 0; i < 6; i++)
     change += o->water.on_stress[i] * (state->material.stress[i] - o->start.material.stress[i]);
   return o->pressure + change;
@@ -146,14 +134,14 @@ double quantity_value(hypofab_quantity quantity, const observer *o, double time,
   switch (quantity) {
     case HYPOFAB_TIME: return time;
     case HYPOFAB_VOID_RATIO: return point->void_ratio;
-    case HYPOFAB_P: return -trace(stress) / 3.0;
-    case HYPOFAB_Q: return sqrt(1.5) * deviatoric_norm(stress);
-    case HYPOFAB_EPS_V: return trace(state->strain);
-    case HYPOFAB_EPS_Q: return sqrt(2.0 / 3.0) * deviatoric_norm(state->strain);
-    case HYPOFAB_RHO: return o->material->m_R > 0.5 ? sqrt(squared_norm(point->delta)) / o->material->R : 0.0;
+    case HYPOFAB_P: return -tensor_trace(stress) / 3.0;
+    case HYPOFAB_Q: return sqrt(1.5) * tensor_deviatoric_norm(stress);
+    case HYPOFAB_EPS_V: return tensor_trace(state->strain);
+    case HYPOFAB_EPS_Q: return sqrt(2.0 / 3.0) * tensor_deviatoric_norm(state->strain);
+    case HYPOFAB_RHO: return o->material->m_R > 0.5 ? tensor_norm(point->delta) / o->material->R : 0.0;
     case HYPOFAB_PHI_MOB: return hypofab_friction_angle(stress);
     case HYPOFAB_Q_SIGNED: return 0.5 * (stress[o->normal] + stress[o->lateral]) - stress[o->axis];
-    case HYPOFAB_ETA: return -3.0 * sqrt(1.5) * deviatoric_norm(stress) / trace(stress);
+    case HYPOFAB_ETA: return -3.0 * sqrt(1.5) * tensor_deviatoric_norm(stress) / tensor_trace(stress);
     case HYPOFAB_S: return -0.5 * (stress[o->axis] + stress[o->lateral]);
     case HYPOFAB_T: return 0.5 * (stress[o->lateral] - stress[o->axis]);
     case HYPOFAB_LODE: return lode_angle(stress);
@@ -165,8 +153,8 @@ double quantity_value(hypofab_quantity quantity, const observer *o, double time,
     case HYPOFAB_TOT_XX:
     case HYPOFAB_TOT_YY:
     case HYPOFAB_TOT_ZZ: return stress[quantity - HYPOFAB_TOT_XX] - pore_pressure(o, state);
-    case HYPOFAB_P_TOT: return pore_pressure(o, state) - trace(stress) / 3.0;
-    case HYPOFAB_EPS_ACC: return sqrt(squared_norm(state->strain));
+    case HYPOFAB_P_TOT: return pore_pressure(o, state) - tensor_trace(stress) / 3.0;
+    case HYPOFAB_EPS_ACC: return tensor_norm(state->strain);
     case HYPOFAB_EPS_PATH: return state->path;
     case HYPOFAB_WORK: return state->work;
     case HYPOFAB_CYCLE: return 0.5 * o->half_cycles;

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/message.h"
+#include "driver/tensor.h"
 
 /* A part of N that is smaller than this, relative to N, does not tell one direction of an eigenspace from another. */
 static const double negligible = 1e-10;
@@ -67,7 +68,7 @@ static hypofab_status minimise_branch(const linear_parts *parts, hypofab_branch 
   minimum->work = s.value[0];
   minimum->branch = branch;
   combine(&s, lowest, minimum->direction);
-  const double along = linear_dot(parts->direction, minimum->direction);
+  const double along = tensor_dot(parts->direction, minimum->direction);
   if ((branch == HYPOFAB_LOADING) != (along >= 0.0))
     for (int i = 0; i < 6; i++) minimum->direction[i] = -minimum->direction[i];
   return HYPOFAB_OK;

@@ -10,6 +10,7 @@
 #include "driver/control.h"
 #include "driver/linear.h"
 #include "driver/second_order_work.h"
+#include "driver/tensor.h"
 
 /* Principal stresses closer than this, relative to the largest, count as equal. */
 static const double equal = 1e-9;
@@ -76,7 +77,7 @@ static hypofab_status bound(const hypofab_material *material, const hypofab_stat
   int sign;
   gsl_linalg_LU_decomp(&L.matrix, &permutation, &sign);
   gsl_linalg_LU_solve(&L.matrix, &permutation, &N.vector, &x.vector);
-  *norm = sqrt(linear_dot(solution, solution));
+  *norm = tensor_norm(solution);
   return HYPOFAB_OK;
 }
 
@@ -141,8 +142,6 @@ static void measure(const double matrix[36], double *determinant, double *condit
   *condition = singular[5] > 0.0 ? singular[0] / singular[5] : INFINITY;
 }
 
-static double norm(const double tensor[6]) { return sqrt(linear_dot(tensor, tensor)); }
-
 hypofab_status hypofab_stability_control(const hypofab_material *material, const hypofab_state *state,
                                          const hypofab_step *step, hypofab_control_stability *result) {
   linear_parts parts;
@@ -152,9 +151,9 @@ hypofab_status hypofab_stability_control(const hypofab_material *material, const
   if (!status) status = control_choose_branch(material, state, step, &branch);
   if (!status) status = control_solve(material, state, step, branch, &rates);
   if (status) return status;
-  const double size = norm(rates.stretching), stress_size = norm(rates.stress_rate);
+  const double size = tensor_norm(rates.stretching), stress_size = tensor_norm(rates.stress_rate);
   hypofab_control_stability found = {.branch = branch};
-  const double work = linear_dot(rates.stress_rate, rates.stretching);
+  const double work = tensor_dot(rates.stress_rate, rates.stretching);
   found.work = size > 0.0 ? work / (size * size) : NAN;
   found.work_cosine = size > 0.0 && stress_size > 0.0 ? work / (size * stress_size) : NAN;
 

@@ -24,6 +24,13 @@ static inline void tensor_deviator(const double t[6], double deviator[6]) {
   for (int i = 0; i < 6; i++) deviator[i] = i < 3 ? t[i] - mean : t[i];
 }
 
+/** Norm of the deviator, from the deviator itself: tr(t t) - tr(t)^2/3 would cancel. */
+static inline double tensor_deviatoric_norm(const double t[6]) {
+  double deviator[6];
+  tensor_deviator(t, deviator);
+  return tensor_norm(deviator);
+}
+
 /** Components in the orthonormal basis of symmetric tensors: shear times sqrt(2), so that vectors' norms are tensors'.
  */
 static inline void tensor_to_vector(const double t[6], double vector[6]) {
