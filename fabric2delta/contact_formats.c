@@ -92,12 +92,22 @@ void contact_reader_close(contact_reader *reader) {
 hypofab_status contact_chunk_reserve(contact_chunk *chunk, const char *path, size_t count) {
   chunk->count = chunk->bad = 0;
   if (count <= chunk->reserved) return HYPOFAB_OK;
-  free(chunk->contacts);
-  free(chunk->problems);
+  contact_chunk_free(chunk);
   chunk->contacts = malloc(count * sizeof *chunk->contacts);
   chunk->problems = malloc(count);
-  chunk->reserved = chunk->contacts && chunk->problems ? count : 0;
+  chunk->hashes = malloc(count * sizeof *chunk->hashes);
+  chunk->reserved = chunk->contacts && chunk->problems && chunk->hashes ? count : 0;
   return chunk->reserved ? HYPOFAB_OK : hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", path);
+}
+
+void contact_chunk_free(contact_chunk *chunk) {
+  free(chunk->contacts);
+  free(chunk->problems);
+  free(chunk->hashes);
+  chunk->contacts = NULL;
+  chunk->problems = NULL;
+  chunk->hashes = NULL;
+  chunk->reserved = 0;
 }
 
 const char *contact_problem_text(contact_problem problem, const char **expected) {

@@ -4,10 +4,13 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-void contact_pipeline_start(contact_pipeline *pipeline, contact_reader *reader, int threads) {
+#include "fabric2delta/pair_set.h"
+
+void contact_pipeline_start(contact_pipeline *pipeline, contact_reader *reader, int threads, bool hashes_pairs) {
   long there = sysconf(_SC_NPROCESSORS_ONLN);
   if (threads <= 0) threads = there < 1 ? 1 : there > 4 ? 4 : (int)there;
   pipeline->reader = reader;
+  pipeline->hashes_pairs = hashes_pairs;
   pipeline->wanted_threads = threads > MOST_THREADS ? MOST_THREADS : threads;
   pipeline->n_slots = 2 * pipeline->wanted_threads + 2;
   pthread_mutex_init(&pipeline->fetch, NULL);
@@ -51,6 +54,13 @@ static void publish(contact_pipeline *pipeline, pipeline_slot *slot, hypofab_sta
   pthread_mutex_unlock(&pipeline->lock);
 }
 
+static hypofab_status parse(const contact_pipeline *pipeline, contact_chunk *chunk) {
+  hypofab_status status = pipeline->reader->parse(pipeline->reader, chunk);
+  for (size_t i = 0; i < chunk->count && !status && pipeline->hashes_pairs; i++)
+    chunk->hashes[i] = pair_hash(&chunk->contacts[i]);
+  return status;
+}
+
 static void *work(void *user) {
   contact_pipeline *pipeline = user;
   for (;;) {
@@ -65,7 +75,7 @@ static void *work(void *user) {
     }
     pthread_mutex_unlock(&pipeline->fetch);
     if (!slot) return NULL;
-    if (more) status = pipeline->reader->parse(pipeline->reader, &slot->chunk);
+    if (more) status = parse(pipeline, &slot->chunk);
     publish(pipeline, slot, status);
   }
 }
@@ -83,7 +93,7 @@ static hypofab_status take_alone(contact_pipeline *pipeline, contact_chunk **chu
   bool more;
   contact_chunk *next = &pipeline->slots[0].chunk;
   hypofab_status status = fetch(pipeline->reader, next, &more);
-  if (!status && more) status = pipeline->reader->parse(pipeline->reader, next);
+  if (!status && more) status = parse(pipeline, next);
   pipeline->taken++;
   if (!status && more) *chunk = next;
   return status;
@@ -115,8 +125,7 @@ void contact_pipeline_stop(contact_pipeline *pipeline) {
   for (int i = 0; i < pipeline->n_threads; i++) pthread_join(pipeline->threads[i], NULL);
   for (int i = 0; i < MOST_CHUNKS; i++) {
     free(pipeline->slots[i].chunk.bytes);
-    free(pipeline->slots[i].chunk.contacts);
-    free(pipeline->slots[i].chunk.problems);
+    contact_chunk_free(&pipeline->slots[i].chunk);
   }
   pthread_mutex_destroy(&pipeline->fetch);
   pthread_mutex_destroy(&pipeline->lock);

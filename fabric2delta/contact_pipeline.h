@@ -22,6 +22,7 @@ typedef struct pipeline_slot {
 /** Reading ahead. */
 typedef struct contact_pipeline {
   contact_reader *reader;
+  bool hashes_pairs;
   pipeline_slot slots[MOST_CHUNKS];
   int n_slots, n_threads; /**< threads running; 0: chunks are parsed when they are taken */
   int wanted_threads;
@@ -33,8 +34,8 @@ typedef struct contact_pipeline {
   bool ended, stopping;
 } contact_pipeline;
 
-/** Begin. @param threads 0: as many as the machine has, up to 4 */
-void contact_pipeline_start(contact_pipeline *pipeline, contact_reader *reader, int threads);
+/** Begin. @param threads 0: as many as the machine has, up to 4 @param hashes_pairs whether chunk->hashes is wanted */
+void contact_pipeline_start(contact_pipeline *pipeline, contact_reader *reader, int threads, bool hashes_pairs);
 
 /** The next chunk, valid until the next call; NULL at the end. */
 hypofab_status contact_pipeline_take(contact_pipeline *pipeline, contact_chunk **chunk);

@@ -19,6 +19,7 @@ typedef struct contact_chunk {
   int64_t first;           /**< number of the first line, or of the first contact */
   contact *contacts;       /**< all of them, also those with a problem */
   unsigned char *problems; /**< contact_problem of each */
+  uint64_t *hashes;        /**< of the pairs, if the stream looks for duplicates */
   size_t reserved, count;
   size_t bad;      /**< how many have a problem */
   double fraction; /**< of the file, read when the chunk was filled; negative: not known */
@@ -46,6 +47,9 @@ enum { CHUNK_BYTES = 1 << 18 };
 
 /** Room for `count` contacts in a chunk. */
 hypofab_status contact_chunk_reserve(contact_chunk *chunk, const char *path, size_t count);
+
+/** Free the contacts of a chunk, not its bytes. */
+void contact_chunk_free(contact_chunk *chunk);
 
 /** Note the problem of the contact just added as number chunk->count, and count it. */
 static inline void contact_chunk_add(contact_chunk *chunk, contact_problem problem) {

@@ -75,7 +75,7 @@ static hypofab_status open_parts(contact_stream *stream, const char *path) {
   if (status) return status;
   stream->looks_for_pairs = stream->has & CONTACT_HAS_IDS && format->duplicates != HYPOFAB_KEEP;
   stream->pairs = pair_set_of(format->duplicate_memory ? format->duplicate_memory : DEFAULT_DUPLICATE_MEMORY);
-  contact_pipeline_start(&stream->pipeline, &stream->reader, format->threads);
+  contact_pipeline_start(&stream->pipeline, &stream->reader, format->threads, stream->looks_for_pairs);
   return HYPOFAB_OK;
 }
 
@@ -173,6 +173,13 @@ static hypofab_status next_chunk(contact_stream *stream) {
   return HYPOFAB_OK;
 }
 
+static int enter_pair(contact_stream *stream, size_t index, bool *again) {
+  enum { AHEAD = 24 };
+  const contact_chunk *chunk = stream->chunk;
+  if (index + AHEAD < chunk->count) pair_set_prepare(&stream->pairs, chunk->hashes[index + AHEAD]);
+  return pair_set_enter(&stream->pairs, chunk->hashes[index], again);
+}
+
 /* Whether the contact at hand is to be delivered. */
 static hypofab_status examine(contact_stream *stream, size_t index, bool *wanted) {
   contact *one = &stream->chunk->contacts[index];
@@ -186,7 +193,7 @@ static hypofab_status examine(contact_stream *stream, size_t index, bool *wanted
     return HYPOFAB_OK;
   }
   bool again = false;
-  if (stream->looks_for_pairs && pair_set_enter(&stream->pairs, one, &again))
+  if (stream->looks_for_pairs && enter_pair(stream, index, &again))
     return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", stream->reader.input.path);
   if (again) return note_problem(stream, index, CONTACT_DUPLICATE, ROLE_ID2), HYPOFAB_OK;
   stream->report.outside += verdict == VERDICT_OUTSIDE;

@@ -18,7 +18,7 @@ static uint64_t mix(uint64_t x) {
 }
 
 /* Equal for a pair and its listing from the other side, where the image counts the other way. */
-static uint64_t hash_of(const contact *one) {
+uint64_t pair_hash(const contact *one) {
   const bool turned =
       one->id1 > one->id2 || (one->id1 == one->id2 && (one->cell[0] < 0 || (one->cell[0] == 0 && one->cell[1] < 0) ||
                                                        (one->cell[0] == 0 && one->cell[1] == 0 && one->cell[2] < 0)));
@@ -63,8 +63,11 @@ static int make_room(pair_set *set) {
   return rebuild(set, set->size);
 }
 
-int pair_set_enter(pair_set *set, const contact *one, bool *again) {
-  const uint64_t hash = hash_of(one);
+void pair_set_prepare(const pair_set *set, uint64_t hash) {
+  if (set->size) __builtin_prefetch(&set->hashes[(size_t)(hash >> 16) & (set->size - 1)], 1);
+}
+
+int pair_set_enter(pair_set *set, uint64_t hash, bool *again) {
   *again = false;
   if (set->one_in && !is_looked_at(set, hash)) return 0;
   if (make_room(set)) return -1;

@@ -26,10 +26,14 @@ typedef struct pair_set {
 /** An empty set of at most that many MiB. */
 pair_set pair_set_of(int mebibytes);
 
-/** Enter the pair of a contact, image included, whichever particle comes first. @param again set to whether it was
- * there
- * @return -1 when memory ran out */
-int pair_set_enter(pair_set *set, const contact *one, bool *again);
+/** The hash of a contact's pair, image included; the same whichever particle comes first. */
+uint64_t pair_hash(const contact *one);
+
+/** Enter a pair by its hash. @param again set to whether it was there @return -1 when memory ran out */
+int pair_set_enter(pair_set *set, uint64_t hash, bool *again);
+
+/** Fetch the place of a pair that is about to be entered: memory is slow, and the places are all over it. */
+void pair_set_prepare(const pair_set *set, uint64_t hash);
 
 /** Free the memory. */
 void pair_set_free(pair_set *set);
