@@ -140,8 +140,6 @@ static void check(struct argp_state *state, const choices *chosen) {
   if (chosen->format && chosen->json) argp_error(state, "--format and --json exclude each other");
   if (chosen->format && chosen->compression_positive)
     argp_error(state, "--sign makes no sense with --format: codes and decks have signs of their own");
-  if (chosen->uncertainty.replicates && (chosen->axes.given || strcmp(chosen->weight, hypofab_weight_name(0)) != 0))
-    argp_error(state, "--bootstrap knows the axes of the contacts and the exponential weight only");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state) {
@@ -232,7 +230,8 @@ static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, c
 static int show(const choices *chosen, const hypofab_fabric *fabric, uncertainty *found) {
   hypofab_fabric used = *fabric;
   hypofab_initial_delta map;
-  hypofab_status status = uncertainty_intervals(found, chosen->R, chosen->c, chosen->corrected);
+  hypofab_status status =
+      uncertainty_intervals(found, &chosen->axes, chosen->R, chosen->c, chosen->weight, chosen->corrected);
   if (!status && chosen->corrected) status = uncertainty_correct(found, fabric, &used);
   if (!status) status = hypofab_fabric_to_delta_weighted(&used, chosen->R, chosen->c, chosen->weight, &map);
   if (status) return cli_exit(status);

@@ -116,8 +116,6 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       if (chosen->contacts.partial && (chosen->contacts.has_tensor || chosen->contacts.n_files > 1))
         argp_error(state, "--partial: expected one contact list");
       uncertainty_check(state, &chosen->contacts, &chosen->uncertainty);
-      if (chosen->uncertainty.replicates && chosen->axes.given)
-        argp_error(state, "--bootstrap knows the axes of the contacts only");
       return 0;
     default: return ARGP_ERR_UNKNOWN;
   }
@@ -163,7 +161,7 @@ int cmd_fabric(int argc, char **argv) {
   hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
   if (!status) status = axes_options_apply(&chosen.axes, &fabric);
   /* Of delta nothing is shown: R and c are of no consequence. */
-  if (!status) status = uncertainty_intervals(&found, 1.0, 1.0, false);
+  if (!status) status = uncertainty_intervals(&found, &chosen.axes, 1.0, 1.0, NULL, false);
   const int exit_code = status        ? cli_exit(status)
                         : chosen.json ? show_json(&chosen, &fabric, &found)
                                       : show(&chosen, &fabric, &found);

@@ -93,9 +93,13 @@ hypofab_status uncertainty_read(const contact_options *contacts, const uncertain
   return found->has_significance ? hypofab_fabric_significance(fabric, &found->significance) : HYPOFAB_OK;
 }
 
-hypofab_status uncertainty_intervals(uncertainty *found, double R, double c, bool corrected) {
+hypofab_status uncertainty_intervals(uncertainty *found, const axes_options *axes, double R, double c,
+                                     const char *weight, bool corrected) {
   if (!found->bootstrap) return HYPOFAB_OK;
-  return hypofab_bootstrap_uncertainty(found->bootstrap, found->level, R, c, corrected, &found->intervals);
+  hypofab_status status = HYPOFAB_OK;
+  if (axes->given) status = hypofab_bootstrap_rotate(found->bootstrap, (const double(*)[3])axes->rotation);
+  if (status) return status;
+  return hypofab_bootstrap_uncertainty(found->bootstrap, found->level, R, c, weight, corrected, &found->intervals);
 }
 
 hypofab_status uncertainty_correct(const uncertainty *found, const hypofab_fabric *fabric, hypofab_fabric *corrected) {
@@ -165,7 +169,7 @@ void uncertainty_to_json(const uncertainty *found, bool with_delta, json_t *obje
 static void print_verdict(const uncertainty *found, const hypofab_fabric *fabric) {
   const hypofab_significance *one = &found->significance;
   const bool significant = one->p_value < significance_level;
-  printf("\n%-34s %.6f\n%-34s %.6f\n", "noise of a, 7.5/sqrt(N_c)", one->noise, "a without noise", one->corrected);
+  printf("\n%-34s %.6f\n%-34s %.6f\n", "noise floor of a", one->noise, "a without noise", one->corrected);
   printf(
       "a = %.4f is %s: chance gives as much or more to an isotropic sample of %lld independent contacts with "
       "probability %.2g\n",

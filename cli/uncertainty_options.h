@@ -9,6 +9,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
+#include "cli/axes_options.h"
 #include "cli/contact_options.h"
 #include "hypofab.h"
 
@@ -49,9 +50,11 @@ hypofab_status uncertainty_read(const contact_options *contacts, const uncertain
 
 /**
  * @brief Intervals of the bootstrap, if there is one.
- * @param R, c, corrected as in hypofab_bootstrap_uncertainty
+ * @param axes of the result; call it once
+ * @param R, c, weight, corrected as in hypofab_bootstrap_uncertainty
  */
-hypofab_status uncertainty_intervals(uncertainty *found, double R, double c, bool corrected);
+hypofab_status uncertainty_intervals(uncertainty *found, const axes_options *axes, double R, double c,
+                                     const char *weight, bool corrected);
 
 /** The fabric without noise, by the bootstrap's scatter or, without one, that of independent contacts. */
 hypofab_status uncertainty_correct(const uncertainty *found, const hypofab_fabric *fabric, hypofab_fabric *corrected);

@@ -26,7 +26,7 @@ static void product_of(const double n[3], double product[6]) {
   product[5] = n[1] * n[2] / square;
 }
 
-static void add_sum(fabric_sum *sum, const fabric_sum *more) {
+static void add_sum(drawn_sum *sum, const drawn_sum *more) {
   sum->weight += more->weight;
   for (int j = 0; j < 6; j++) sum->sums[j] += more->sums[j];
 }
@@ -68,7 +68,7 @@ static hypofab_status drawing_start(drawing *draw, int replicates, unsigned long
 
 static void draw_block(const drawing *draw, hypofab_bootstrap *bootstrap, size_t n, double (*products)[6]) {
   for (int k = 0; k < bootstrap->replicates; k++) {
-    fabric_sum block = {0};
+    drawn_sum block = {0};
     for (size_t i = 0; i < n; i++) {
       const double times = (double)gsl_ran_discrete(draw->random[k], draw->poisson);
       block.weight += times;
@@ -84,7 +84,7 @@ static void draw_block(const drawing *draw, hypofab_bootstrap *bootstrap, size_t
 typedef struct grid {
   double lower[3], upper[3];
   int cells;
-  fabric_sum *units; /* cells^3 */
+  drawn_sum *units; /* cells^3 */
 } grid;
 
 /* What contacts are streamed into: all sums are of all contacts; `box` or `draw` where they are not NULL. */
@@ -113,14 +113,14 @@ static void measure(grid *box, const contact *block, size_t n) {
     }
 }
 
-static void take_block(const sink *to, const contact *block, size_t n, fabric_sum *list) {
+static void take_block(const sink *to, const contact *block, size_t n, drawn_sum *list) {
   double products[CONTACT_BLOCK][6];
-  fabric_sum sum = {.weight = (double)n};
+  drawn_sum sum = {.weight = (double)n};
   for (size_t i = 0; i < n; i++) {
     product_of(block[i].normal, products[i]);
     for (int j = 0; j < 6; j++) sum.sums[j] += products[i][j];
     if (to->box) {
-      fabric_sum one = {.weight = 1.0};
+      drawn_sum one = {.weight = 1.0};
       memcpy(one.sums, products[i], sizeof one.sums);
       add_sum(&to->box->units[cell_of(to->box, block[i].position)], &one);
     }
@@ -131,7 +131,7 @@ static void take_block(const sink *to, const contact *block, size_t n, fabric_su
 
 /* Stream one list. @param list the sum of its contacts */
 static hypofab_status stream_list(const char *path, const hypofab_contact_format *format, const sink *to,
-                                  fabric_sum *list) {
+                                  drawn_sum *list) {
   contact_stream *stream;
   hypofab_status status = contact_stream_open(path, format, &stream);
   if (status) return status;
@@ -150,7 +150,7 @@ static hypofab_status stream_list(const char *path, const hypofab_contact_format
   return status;
 }
 
-static void enter_list(hypofab_bootstrap *bootstrap, const fabric_sum *list) {
+static void enter_list(hypofab_bootstrap *bootstrap, const drawn_sum *list) {
   add_sum(&bootstrap->whole, list);
   bootstrap->contacts = (int64_t)bootstrap->whole.weight;
 }
@@ -164,7 +164,7 @@ static hypofab_status read_contacts(int n_paths, const char *const *paths, const
   if (status) return status;
   const sink to = {.bootstrap = bootstrap, .draw = &draw};
   for (int i = 0; i < n_paths && !status; i++) {
-    fabric_sum list = {0};
+    drawn_sum list = {0};
     status = stream_list(paths[i], format, &to, &list);
     enter_list(bootstrap, &list);
   }
@@ -179,7 +179,7 @@ static hypofab_status read_contacts(int n_paths, const char *const *paths, const
 static hypofab_status read_box(const char *path, const hypofab_contact_format *format, unsigned long seed, grid *box,
                                hypofab_bootstrap *bootstrap) {
   sink to = {.bootstrap = bootstrap, .box = box, .measuring = true};
-  fabric_sum list = {0};
+  drawn_sum list = {0};
   hypofab_status status = stream_list(path, format, &to, &list);
   to.measuring = false;
   if (!status) status = stream_list(path, format, &to, &list);
@@ -206,7 +206,7 @@ static hypofab_status read_blocks(const char *path, const hypofab_contact_format
 
 static hypofab_status read_samples(int n_paths, const char *const *paths, const hypofab_contact_format *format,
                                    unsigned long seed, hypofab_bootstrap *bootstrap) {
-  fabric_sum *lists = calloc((size_t)n_paths, sizeof *lists);
+  drawn_sum *lists = calloc((size_t)n_paths, sizeof *lists);
   if (!lists) return out_of_memory();
   const sink to = {.bootstrap = bootstrap};
   hypofab_status status = HYPOFAB_OK;
@@ -270,6 +270,7 @@ hypofab_status hypofab_bootstrap_read(int n_paths, const char *const *paths, con
   if (status) return status;
   hypofab_bootstrap *read = calloc(1, sizeof *read);
   if (!read) return out_of_memory();
+  read->plane = format && format->dimension == 2;
   read->replicates = options->replicates;
   read->replicate = calloc((size_t)options->replicates, sizeof *read->replicate);
   status = read->replicate ? read_lists(n_paths, paths, format, options, read) : out_of_memory();

@@ -6,12 +6,23 @@
  * so N_c a^2/11.25 is the sum of squares of five standard normals. */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
+#include <stdbool.h>
 
 #include "base/message.h"
+#include "fabric2delta/bootstrap.h"
 #include "fabric2delta/fabric.h"
 
-/* a^2 of a tensor N: 3/2 (15/2)^2 |N - 1/3|^2. */
-static const double square_factor = 1.5 * 7.5 * 7.5;
+/* What differs between two dimensions and three. */
+typedef struct dimension {
+  double square_factor; /* a^2 over |N - 1/d|^2 */
+  double size;          /* d */
+  double freedom;       /* independent components of F */
+} dimension;
+
+static dimension dimension_of(const hypofab_fabric *fabric) {
+  static const dimension plane = {8.0, 2.0, 2.0}, space = {1.5 * 7.5 * 7.5, 3.0, 5.0};
+  return hypofab_fabric_is_plane(fabric) ? plane : space;
+}
 
 static double square_norm(const double x[6]) {
   return x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + 2.0 * (x[3] * x[3] + x[4] * x[4] + x[5] * x[5]);
@@ -19,7 +30,12 @@ static double square_norm(const double x[6]) {
 
 /* What independent contacts add to a^2: unbiased, as (1 - N:N) N_c/(N_c - 1) estimates 1 - M:M without bias. */
 static double independent_noise2(const hypofab_fabric *fabric) {
-  return square_factor * (1.0 - square_norm(fabric->fabric)) / (double)(fabric->contacts - 1);
+  return dimension_of(fabric).square_factor * (1.0 - square_norm(fabric->fabric)) / (double)(fabric->contacts - 1);
+}
+
+bool hypofab_fabric_is_plane(const hypofab_fabric *fabric) {
+  /* In three dimensions contacts in a plane have F_zz = -5/2. */
+  return fabric->fabric[2] == 0.0 && fabric->deviatoric_fabric[2] == 0.0;
 }
 
 static hypofab_status check_contacts(const hypofab_fabric *fabric) {
@@ -36,11 +52,13 @@ hypofab_status hypofab_fabric_significance(const hypofab_fabric *fabric, hypofab
   hypofab_status status = check_contacts(fabric);
   if (status) return status;
   const double a = fabric->anisotropy, n = (double)fabric->contacts;
-  const double statistic = n * a * a / 11.25;
-  *significance = (hypofab_significance){.noise = 7.5 / sqrt(n),
+  const dimension d = dimension_of(fabric);
+  const double isotropic = d.square_factor * (1.0 - 1.0 / d.size) / n; /* E a^2 */
+  const double statistic = d.freedom * a * a / isotropic;
+  *significance = (hypofab_significance){.noise = sqrt(isotropic),
                                          .corrected = without_noise(a, independent_noise2(fabric)),
                                          .statistic = statistic,
-                                         .p_value = gsl_cdf_chisq_Q(statistic, 5.0)};
+                                         .p_value = gsl_cdf_chisq_Q(statistic, d.freedom)};
   return HYPOFAB_OK;
 }
 
@@ -51,18 +69,21 @@ hypofab_status hypofab_fabric_correct(const hypofab_fabric *fabric, double noise
   if (status) return status;
   const double a = fabric->anisotropy, wanted = without_noise(a, noise2 < 0.0 ? independent_noise2(fabric) : noise2);
   const double share = a > 0.0 ? wanted / a : 0.0;
+  const bool plane = hypofab_fabric_is_plane(fabric);
+  const int size = plane ? 2 : 3;
   hypofab_fabric result = *fabric;
   double tensor[6];
   for (int i = 0; i < 6; i++) {
-    const double third = i < 3 ? 1.0 / 3.0 : 0.0;
-    tensor[i] = third + share * (fabric->fabric[i] - third);
+    const double equal = i < size ? 1.0 / size : 0.0;
+    tensor[i] = equal + share * (fabric->fabric[i] - equal);
   }
-  const int info = hypofab_fabric_describe(tensor, &result);
+  const int info = plane ? hypofab_fabric_describe_plane(tensor, &result) : hypofab_fabric_describe(tensor, &result);
   if (info) return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "correction: LAPACK dsyev returned info = %d", info);
   result.contacts = fabric->contacts;
   result.particles = fabric->particles;
   result.coordination_number = fabric->coordination_number;
   result.mechanical_coordination_number = fabric->mechanical_coordination_number;
+  result.rattlers = fabric->rattlers;
   *corrected = result;
   return HYPOFAB_OK;
 }

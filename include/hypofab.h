@@ -1052,9 +1052,12 @@ hypofab_status hypofab_fabric_zones(double a_n, double stress_ratio, double no_g
 
 /** How far an anisotropy stands out of the noise of a finite number of contacts (docs/uncertainty.md). */
 typedef struct hypofab_significance {
-  double noise;     /**< root-mean-square a of N_c independent contacts without preferred direction: 7.5/sqrt(N_c) */
-  double corrected; /**< a without the noise in it: sqrt(max(0, a^2 - 84.375 (1 - N:N)/(N_c - 1))) */
-  double statistic; /**< N_c a^2/11.25, of chi-square distribution with 5 degrees of freedom without anisotropy */
+  double noise;     /**< root-mean-square a of N_c independent contacts without preferred direction: 7.5/sqrt(N_c);
+                         in two dimensions 2/sqrt(N_c) */
+  double corrected; /**< a without the noise in it: sqrt(max(0, a^2 - 84.375 (1 - N:N)/(N_c - 1))); 8 for 84.375 in two
+                         dimensions */
+  double statistic; /**< N_c a^2/11.25, of chi-square distribution with 5 degrees of freedom without anisotropy; N_c
+                         a^2/2 and 2 in two dimensions */
   double p_value;   /**< probability of this a or more without anisotropy, contacts being independent */
 } hypofab_significance;
 
@@ -1107,6 +1110,9 @@ hypofab_status hypofab_bootstrap_read(int n_paths, const char *const *paths, con
 /** Free a bootstrap; NULL is allowed. */
 void hypofab_bootstrap_free(hypofab_bootstrap *bootstrap);
 
+/** Turn sample and replicates into other axes, as hypofab_fabric_rotate. */
+hypofab_status hypofab_bootstrap_rotate(hypofab_bootstrap *bootstrap, const double rotation[3][3]);
+
 /** Number of replicates and of units (contacts, blocks with contacts in them, samples). */
 int hypofab_bootstrap_replicates(const hypofab_bootstrap *bootstrap);
 int64_t hypofab_bootstrap_units(const hypofab_bootstrap *bootstrap);
@@ -1150,11 +1156,11 @@ typedef struct hypofab_uncertainty {
 /**
  * @brief Intervals of a bootstrap.
  * @param level     share of the replicates inside, e.g. 0.95
- * @param R, c      of the map to delta (hypofab_fabric_to_delta)
+ * @param R, c, weight of the map to delta (hypofab_fabric_to_delta_weighted; weight NULL: exponential)
  * @param corrected non-zero: weight and delta follow from the fabric without noise
  */
 hypofab_status hypofab_bootstrap_uncertainty(const hypofab_bootstrap *bootstrap, double level, double R, double c,
-                                             int corrected, hypofab_uncertainty *uncertainty);
+                                             const char *weight, int corrected, hypofab_uncertainty *uncertainty);
 
 /* -------------------------------------------------------------------- deck */
 

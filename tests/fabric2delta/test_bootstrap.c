@@ -26,7 +26,7 @@ static hypofab_bootstrap *draw(int n, const char *const *paths, hypofab_bootstra
 
 static hypofab_uncertainty uncertainty_of(const hypofab_bootstrap *bootstrap, int corrected) {
   hypofab_uncertainty result;
-  if (hypofab_bootstrap_uncertainty(bootstrap, 0.95, 1e-4, 0.05, corrected, &result))
+  if (hypofab_bootstrap_uncertainty(bootstrap, 0.95, 1e-4, 0.05, NULL, corrected, &result))
     fail_msg("%s", hypofab_last_message());
   return result;
 }
@@ -217,6 +217,73 @@ static void test_dem_sample(void **state) {
   }
 }
 
+/* Turned axes turn estimate and replicates; what has no axes stays. */
+static void test_rotation(void **state) {
+  (void)state;
+  const char *const path = EXAMPLE("aniso_3000_contacts.txt.gz");
+  double rotation[3][3], turned[6];
+  random_rotation(4, rotation);
+  hypofab_bootstrap *bootstrap = draw(1, &path, (hypofab_bootstrap_options){.replicates = 60, .seed = 9});
+  const hypofab_uncertainty before = uncertainty_of(bootstrap, 0);
+  hypofab_fabric one, other;
+  assert_int_equal(hypofab_bootstrap_replicate(bootstrap, 7, 0, &one), HYPOFAB_OK);
+  assert_int_equal(hypofab_bootstrap_rotate(bootstrap, (const double(*)[3])rotation), HYPOFAB_OK);
+  assert_int_equal(hypofab_bootstrap_replicate(bootstrap, 7, 0, &other), HYPOFAB_OK);
+  rotate_tensor(rotation, one.fabric, turned);
+  for (int i = 0; i < 6; i++) assert_close(other.fabric[i], turned[i], 1e-13);
+  const hypofab_uncertainty after = uncertainty_of(bootstrap, 0);
+  assert_close(after.noise2, before.noise2, 1e-12);
+  assert_close(after.anisotropy.lower, before.anisotropy.lower, 1e-12);
+  assert_close(after.delta_angle, before.delta_angle, 1e-9);
+  assert_close(after.p_value, before.p_value, 1e-6 * before.p_value + 1e-12);
+  rotation[0][0] += 0.1;
+  assert_int_equal(hypofab_bootstrap_rotate(bootstrap, (const double(*)[3])rotation), HYPOFAB_BAD_ARGUMENT);
+  hypofab_bootstrap_free(bootstrap);
+}
+
+/* Disks: a^2 = 8 |N - 1/2|^2, so noise is 2/sqrt(N_c), and F has two components. */
+static void test_two_dimensions(void **state) {
+  (void)state;
+  enum { N = 500, SAMPLES = 300 };
+  static double normals[N][3];
+  const hypofab_contact_format format = {.dimension = 2};
+  const hypofab_bootstrap_options options = {.replicates = 100, .seed = 1};
+  double a2 = 0, statistic = 0, noise2 = 0, small = 0, small_boot = 0, corrected = 0;
+  for (unsigned long k = 0; k < SAMPLES; k++) {
+    random_normals(4000 + k, isotropic, N, normals);
+    for (int i = 0; i < N; i++) {
+      const double length = hypot(normals[i][0], normals[i][1]);
+      for (int j = 0; j < 2; j++) normals[i][j] /= length;
+      normals[i][2] = 0;
+    }
+    const char *path = write_normals("disks.txt", N, normals);
+    hypofab_fabric fabric, none;
+    hypofab_significance found;
+    hypofab_bootstrap *bootstrap;
+    hypofab_uncertainty result;
+    if (hypofab_fabric_read(path, &format, &fabric)) fail_msg("%s", hypofab_last_message());
+    assert_int_equal(hypofab_fabric_significance(&fabric, &found), HYPOFAB_OK);
+    assert_close(found.noise, 2 / sqrt(N), 1e-12);
+    assert_int_equal(hypofab_fabric_correct(&fabric, -1, &none), HYPOFAB_OK);
+    assert_close(none.anisotropy, found.corrected, 1e-12);
+    assert_int_equal(hypofab_bootstrap_read(1, &path, &format, &options, &bootstrap), HYPOFAB_OK);
+    assert_int_equal(hypofab_bootstrap_uncertainty(bootstrap, 0.95, 1e-4, 0.05, NULL, 0, &result), HYPOFAB_OK);
+    hypofab_bootstrap_free(bootstrap);
+    a2 += fabric.anisotropy * fabric.anisotropy / SAMPLES;
+    corrected += found.corrected / SAMPLES;
+    statistic += found.statistic / SAMPLES;
+    noise2 += result.noise2 / SAMPLES;
+    small += (found.p_value < 0.1) / (double)SAMPLES;
+    small_boot += (result.p_value < 0.1) / (double)SAMPLES;
+  }
+  assert_close(a2 * N / 4, 1, 0.24); /* exponential: standard error 1/sqrt(300) */
+  assert_close(statistic, 2, 0.5);
+  assert_close(noise2 * N / 4, 1, 0.05);
+  assert_close(small, 0.1, 0.07);
+  assert_close(small_boot, 0.1, 0.07);
+  assert_true(corrected * corrected < a2);
+}
+
 static void refuse(int n, const char *const *paths, hypofab_bootstrap_options options, hypofab_status status,
                    const char *reason) {
   hypofab_bootstrap *bootstrap = NULL;
@@ -247,17 +314,17 @@ static void test_refusals(void **state) {
   hypofab_bootstrap *bootstrap = draw(1, lists, (hypofab_bootstrap_options){.replicates = 20});
   hypofab_uncertainty result;
   hypofab_fabric fabric;
-  assert_int_equal(hypofab_bootstrap_uncertainty(bootstrap, 1.0, 1e-4, 0.05, 0, &result), HYPOFAB_BAD_ARGUMENT);
-  assert_int_equal(hypofab_bootstrap_uncertainty(bootstrap, 0.9, -1, 0.05, 0, &result), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_bootstrap_uncertainty(bootstrap, 1.0, 1e-4, 0.05, NULL, 0, &result), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_bootstrap_uncertainty(bootstrap, 0.9, -1, 0.05, NULL, 0, &result), HYPOFAB_BAD_ARGUMENT);
   assert_int_equal(hypofab_bootstrap_replicate(bootstrap, 20, 0, &fabric), HYPOFAB_BAD_ARGUMENT);
   hypofab_bootstrap_free(bootstrap);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_standard_errors), cmocka_unit_test(test_seeds),   cmocka_unit_test(test_coverage),
-      cmocka_unit_test(test_blocks),          cmocka_unit_test(test_samples), cmocka_unit_test(test_dem_sample),
-      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_standard_errors), cmocka_unit_test(test_seeds),          cmocka_unit_test(test_coverage),
+      cmocka_unit_test(test_blocks),          cmocka_unit_test(test_samples),        cmocka_unit_test(test_dem_sample),
+      cmocka_unit_test(test_rotation),        cmocka_unit_test(test_two_dimensions), cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
