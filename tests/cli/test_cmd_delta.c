@@ -169,7 +169,6 @@ static void wrong_usage(void **state) {
   refuse("--void-ratio: '-1'; expected a number > 0", "--format=kratos", "--void-ratio=-1", NULL);
   refuse("--format and --json exclude", "--format=deck", "--json", NULL);
   refuse("--sign makes no sense with --format", "--format=deck", "--sign", NULL);
-  refuse("--bootstrap knows the axes of the contacts and the exponential", SAMPLE, "--bootstrap=50", "--turn=z:10");
   refuse("--axes: 'x,y'; expected", "--axes=x,y", NULL, NULL);
   refuse("--axes: 'x,y,y'; expected", "--axes=x,y,y", NULL, NULL);
   refuse("--axes must come once", "--turn=z:10", "--axes=x,y,z", NULL);

@@ -33,7 +33,8 @@ static void help_and_version_are_printed(void **state) {
   expect(&run, 0, hypofab_version(), "");
   run_free(&run);
   run = program("--help", NULL);
-  const char *const commands[] = {"run", "envelope", "check", "materials", "fabric", "changes", "delta", "stability"};
+  const char *const commands[] = {"run",       "envelope", "check",   "materials", "fabric",
+                                  "stiffness", "fit-c",    "changes", "delta",     "stability"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
     char line[32];
     snprintf(line, sizeof line, "\n  %-10s ", commands[i]);

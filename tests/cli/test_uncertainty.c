@@ -83,6 +83,31 @@ static void a_bootstrap_gives_intervals(void **state) {
   json_decref(object);
 }
 
+/* Intervals follow the axes and the weight function of the result. */
+static void intervals_are_in_the_axes_of_the_result(void **state) {
+  (void)state;
+  program_run run = program("delta", SAMPLE("aniso"), "--bootstrap", "60", "--weight", "tanh", "--json", NULL);
+  json_t *plain = parse(&run);
+  run = program("delta", SAMPLE("aniso"), "--bootstrap", "60", "--weight", "tanh", "--axes", "y,z,x", "--json", NULL);
+  json_t *turned = parse(&run);
+  run = program("delta", SAMPLE("aniso"), "--bootstrap", "60", "--json", NULL);
+  json_t *other = parse(&run);
+  const json_t *in_old = json_object_get(plain, "uncertainty"), *in_new = json_object_get(turned, "uncertainty");
+  const json_t *old_delta = json_object_get(in_old, "delta"), *new_delta = json_object_get(in_new, "delta");
+  for (size_t i = 0; i < 3; i++) {
+    const size_t from = (i + 1) % 3; /* new x is y */
+    assert_true(fabs(item(turned, "delta", i) - item(plain, "delta", from)) < 1e-15);
+    assert_true(fabs(item(new_delta, "lower", i) - item(old_delta, "lower", from)) < 1e-15);
+    assert_true(fabs(item(new_delta, "upper", i) - item(old_delta, "upper", from)) < 1e-15);
+  }
+  const json_t *tanh_weight = json_object_get(in_old, "weight"),
+               *weight = json_object_get(json_object_get(other, "uncertainty"), "weight");
+  assert_true(number(tanh_weight, "error") != number(weight, "error"));
+  json_decref(plain);
+  json_decref(turned);
+  json_decref(other);
+}
+
 static void a_corrected_delta_has_no_noise(void **state) {
   (void)state;
   program_run run = program("delta", SAMPLE("iso"), "--corrected", "--json", NULL);
@@ -122,6 +147,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       TEST(it_says_whether_an_anisotropy_is_significant),
       TEST(a_bootstrap_gives_intervals),
+      TEST(intervals_are_in_the_axes_of_the_result),
       TEST(a_corrected_delta_has_no_noise),
       TEST(wrong_usage_has_exit_code_2),
   };
