@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import figures, papers, probe_surfaces, stiffness
+from hypofab import cycles, figures, papers, probe_surfaces, stiffness
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.probes import has_probes, is_classical, read_probes
@@ -78,6 +78,14 @@ def parser() -> argparse.ArgumentParser:
         "--out", type=Path, default=source / "docs/papers/figures", metavar="DIR", help="for the figures"
     )
 
+    cyclic = commands.add_parser("cycles", help="what accumulates in cyclic tests, over the number of cycles")
+    cyclic.add_argument("directory", metavar="DIR", type=Path, help="results of hypofab run")
+    cyclic.add_argument("--quantity", default="eps_zz", metavar="NAME", help="a result column (default: %(default)s)")
+    cyclic.add_argument("--tests", nargs="+", default=(), metavar="TEST", help="only these of the deck")
+    cyclic.add_argument("--log", action="store_true", help="logarithm of the number of cycles")
+    cyclic.add_argument("--last", type=float, metavar="N", help="draw up to this cycle")
+    cyclic.add_argument("--name", default="cycles", help="of the figures, written to DIR (default: %(default)s)")
+
     laboratory = commands.add_parser("laboratory", help="laboratory tests computed beside what was measured: a report")
     laboratory.add_argument("directory", metavar="DIR", type=Path, help="folder with the files of the tests")
     laboratory.add_argument("-o", "--output", metavar="OUT", type=Path, required=True, help="folder for the report")
@@ -98,6 +106,11 @@ def main(arguments: list[str] | None = None) -> int:
         elif options.command == "paper":
             runs = options.runs or Path(__file__).parents[2] / "examples/dem/results" / options.paper
             print(papers.compare(options.paper, runs, options.out))
+        elif options.command == "cycles":
+            tests = cycles.read_accumulations(options.directory, options.quantity, options.tests)
+            print(cycles.table(tests, options.quantity))
+            figure = cycles.figure(tests, options.quantity, logarithmic=options.log, last=options.last)
+            save(figure, options.directory / options.name)
         elif options.command == "laboratory":
             print(laboratory(options.directory, options.output, options.program, options.catalogue))
         else:
