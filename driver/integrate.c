@@ -218,6 +218,13 @@ hypofab_status integrator_reach(integrator *it, double from, const test_state *s
   return status;
 }
 
+int integrator_glimpse(integrator *it, double time, test_state *state) {
+  if (it->is_fresh || time < it->before || time > it->now || !(it->before < it->now)) return 0;
+  if (it->method->glimpse(it, time, it->inside) < 0) return 0;
+  memcpy(state, N_VGetArrayPointer(it->inside), sizeof *state);
+  return 1;
+}
+
 double integrator_tolerance(const integrator *it) { return it->tolerance; }
 
 int integrator_knows_along(const integrator *it, const test_state *state, double *along) {

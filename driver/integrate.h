@@ -55,6 +55,13 @@ hypofab_status integrator_advance(integrator *it, double stop, double *time, tes
  */
 hypofab_status integrator_reach(integrator *it, double from, const test_state *start, double to, test_state *state);
 
+/**
+ * @brief About the state at a time inside the step just taken, at almost no cost: good enough to see what happens
+ * there.
+ * @return 1 if it is known; 0 when the integrator has been started anew since
+ */
+int integrator_glimpse(integrator *it, double time, test_state *state);
+
 /** Relative tolerance in force. */
 double integrator_tolerance(const integrator *it);
 

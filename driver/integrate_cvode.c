@@ -40,4 +40,4 @@ static void free_memory(integrator *it) {
   if (it->memory) CVodeFree(&it->memory);
 }
 
-const integrator_method integrator_cvode = {start, advance, next_step, interpolate, free_memory};
+const integrator_method integrator_cvode = {start, advance, next_step, interpolate, interpolate, free_memory};

@@ -16,7 +16,9 @@ static int start(integrator *it, double time, double first_step) {
     failed = 0;
 #endif
     failed = failed || ERKStepSetUserData(it->memory, it) ||
-             ERKStepSetTableNum(it->memory, ARKODE_DORMAND_PRINCE_7_4_5) || ERKStepSetMaxNumSteps(it->memory, -1);
+             ERKStepSetTableNum(it->memory, ARKODE_DORMAND_PRINCE_7_4_5) ||
+             ERKStepSetInterpolantDegree(it->memory, 3) || /* higher ones evaluate rates */
+             ERKStepSetMaxNumSteps(it->memory, -1);
   }
   failed = failed || ERKStepSVtolerances(it->memory, it->tolerance, it->absolute) ||
            ERKStepSetInitStep(it->memory, first_step);
@@ -38,5 +40,7 @@ static void free_memory(integrator *it) {
   if (it->memory) ERKStepFree(&it->memory);
 }
 
+static int glimpse(integrator *it, double time, N_Vector state) { return ERKStepGetDky(it->memory, time, 0, state); }
+
 /* Its dense output has a lower order than its steps: events are found by steps of their own instead. */
-const integrator_method integrator_erk = {start, advance, next_step, NULL, free_memory};
+const integrator_method integrator_erk = {start, advance, next_step, NULL, glimpse, free_memory};

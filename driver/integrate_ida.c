@@ -106,4 +106,4 @@ static void free_memory(integrator *it) {
   if (it->memory) IDAFree(&it->memory);
 }
 
-const integrator_method integrator_ida = {start, advance, next_step, interpolate, free_memory};
+const integrator_method integrator_ida = {start, advance, next_step, interpolate, interpolate, free_memory};

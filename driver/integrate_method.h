@@ -25,6 +25,8 @@ typedef struct integrator_method {
   /** The state at a time inside the last step, from the integrator's own polynomial. NULL: it has none of full order.
    */
   int (*interpolate)(integrator *it, double time, N_Vector state);
+  /** The same to a lower order if need be. */
+  int (*glimpse)(integrator *it, double time, N_Vector state);
   void (*free)(integrator *it);
 } integrator_method;
 

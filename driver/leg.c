@@ -123,6 +123,21 @@ static int next_row_event(const run *r, const schedule *s, double to, const test
   return 1;
 }
 
+/* What happens inside an integrator step: a quantity may meet a value and turn back within it. */
+enum { N_GLIMPSES = 3 };
+typedef struct glimpses {
+  int n; /* 0: nobody looks */
+  double time[N_GLIMPSES];
+  test_state state[N_GLIMPSES];
+} glimpses;
+
+static void look(const run *r, double to, glimpses *g) {
+  for (g->n = 0; g->n < N_GLIMPSES; g->n++) {
+    g->time[g->n] = r->time + (to - r->time) * (g->n + 1) / (N_GLIMPSES + 1);
+    if (!integrator_glimpse(r->it, g->time[g->n], &g->state[g->n])) return;
+  }
+}
+
 /* A place inside an integrator step. */
 typedef struct place {
   const event *what; /* NULL: nothing happens, the place is the end of the integrator step */
@@ -131,29 +146,61 @@ typedef struct place {
   int located; /* the integrator was used to find it and stands elsewhere */
 } place;
 
-/* The branch event at the end of a step; an explicit integrator has evaluated the rates there already. */
-static double branch_at(const run *r, const event *e, double time, const test_state *state) {
-  double along;
-  if (!integrator_knows_along(r->it, state, &along)) return e->value(e, time, state);
-  return event_branch_value(e, state, along);
+/*
+ * An event that is over at the end of the step again: *to and *end become a place behind its start, as the integrator
+ * has it, not as it looks. Returns whether there is one.
+ */
+static int came_and_went(run *r, const event *e, double before, const glimpses *g, double *to, test_state *end,
+                         place *first, hypofab_status *status) {
+  for (int i = 0; i < g->n; i++) {
+    if (!(g->time[i] > r->time && g->time[i] < *to)) continue;
+    if (!event_is_between(e, before, e->value(e, g->time[i], &g->state[i]))) continue;
+    test_state state;
+    *status = integrator_reach(r->it, r->time, &r->state, g->time[i], &state);
+    first->located = 1;
+    if (*status || !event_is_between(e, before, e->value(e, g->time[i], &state))) return 0;
+    *to = g->time[i], *end = state;
+    return 1;
+  }
+  return 0;
+}
+
+/* Take the place of an event if it comes earlier. */
+static void take_first(const event *e, double time, const test_state *state, place *first) {
+  if (!first->what || time < first->time) first->what = e, first->time = time, first->state = *state;
+}
+
+/* The branch is left when its condition fails at the end of the step. */
+static hypofab_status consider_branch(run *r, const event *e, double to, const test_state *end, place *first) {
+  double along, time = r->time;
+  /* An explicit integrator has evaluated the rates there already. */
+  const double after =
+      integrator_knows_along(r->it, end, &along) ? event_branch_value(e, end, along) : e->value(e, to, end);
+  if (after >= 0.0) return HYPOFAB_OK;
+  test_state state = r->state; /* of the very edge, where rounding decides the sign */
+  hypofab_status status = HYPOFAB_OK;
+  if (e->value(e, r->time, &r->state) > 0.0) {
+    first->located = 1;
+    status = event_locate(r->it, e, r->time, &r->state, to, end, &time, &state);
+  }
+  if (!status) take_first(e, time, &state, first);
+  return status;
 }
 
 /* Replace the place by that of an event that comes earlier. */
-static hypofab_status consider(run *r, const event *e, double to, const test_state *end, place *first) {
-  const double after = e->value == event_branch ? branch_at(r, e, to, end) : e->value(e, to, end);
-  if (e->value == event_branch && after >= 0.0) return HYPOFAB_OK;
+static hypofab_status consider(run *r, const event *e, double to, const test_state *end, const glimpses *g,
+                               place *first) {
   const double before = e->value(e, r->time, &r->state);
-  double time = r->time;
-  test_state state = r->state;
-  if (event_is_between(e, before, after)) {
-    hypofab_status status = event_locate(r->it, e, r->time, &r->state, to, end, &time, &state);
-    first->located = 1;
-    if (status) return status;
-  } else if (e->value != event_branch) {
-    return HYPOFAB_OK; /* not crossed; only a branch can be left from its very edge, where rounding decides the sign */
-  }
-  if (!first->what || time < first->time) first->what = e, first->time = time, first->state = state;
-  return HYPOFAB_OK;
+  hypofab_status status = HYPOFAB_OK;
+  double time;
+  test_state state, until = *end;
+  if (!event_is_between(e, before, e->value(e, to, end)) &&
+      !came_and_went(r, e, before, g, &to, &until, first, &status))
+    return status;
+  first->located = 1;
+  status = event_locate(r->it, e, r->time, &r->state, to, &until, &time, &state);
+  if (!status) take_first(e, time, &state, first);
+  return status;
 }
 
 /* Start on the branch that the conditions select; or, having left one, on the other. */
@@ -172,15 +219,17 @@ static hypofab_status handle_events(run *r, const hypofab_step *step, schedule *
                                     const test_state *end, int *ended, int *whole) {
   const double next_step = integrator_next_step(r->it);
   place first = {0};
+  glimpses seen = {0};
+  if (!s->end_is_timed || s->n_stops > 0) look(r, to, &seen);
   *whole = 0;
   for (;;) {
     event row;
     hypofab_status status = HYPOFAB_OK;
     first.what = NULL, first.time = to, first.state = *end;
-    if (branch->branch != HYPOFAB_PLAIN) status = consider(r, branch, to, end, &first);
-    if (!status && !s->end_is_timed) status = consider(r, &s->end, to, end, &first);
-    for (int i = 0; !status && i < s->n_stops; i++) status = consider(r, &s->stops[i], to, end, &first);
-    if (!status && next_row_event(r, s, to, end, &row)) status = consider(r, &row, to, end, &first);
+    if (branch->branch != HYPOFAB_PLAIN) status = consider_branch(r, branch, to, end, &first);
+    if (!status && !s->end_is_timed) status = consider(r, &s->end, to, end, &seen, &first);
+    for (int i = 0; !status && i < s->n_stops; i++) status = consider(r, &s->stops[i], to, end, &seen, &first);
+    if (!status && next_row_event(r, s, to, end, &row)) status = consider(r, &row, to, end, &seen, &first);
     if (status) return status;
     r->time = first.time;
     r->state = first.state;

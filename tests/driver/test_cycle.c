@@ -212,6 +212,36 @@ static void test_stops(void **unused) {
   }
 }
 
+/* A quantity that meets a value and turns back inside one large step of the integrator is not missed. */
+static void test_a_stop_that_comes_and_goes(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_state state;
+  const hypofab_test_options coarse = {.tolerance = 1e-2};
+  sand("karlsruhe_fine", 200.0, 0.85, &material, &state);
+  material.m_R = 0.0; /* nothing but the plain model's smoothness */
+  hypofab_step step = preset("undrained_triaxial_compression", 2, -1, 0);
+  step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.05};
+  step.rows = 5000;
+  recorder r = {0};
+  assert_int_equal(hypofab_test_run(&material, &state, &step, 1, &coarse, recorder_take, &r, NULL), HYPOFAB_OK);
+  double lowest = INFINITY;
+  for (int i = 0; i < r.n; i++) lowest = fmin(lowest, r.rows[i].value[HYPOFAB_P]);
+  assert_true(lowest < 190.0 && r.rows[r.n - 1].value[HYPOFAB_P] > 210.0); /* down, and up again */
+  recorder_clear(&r);
+  step.rows = 0;
+  step.n_stops = 1;
+  for (int i = 1; i < 12; i++) { /* ever closer to the lowest value */
+    hypofab_test_outcome outcome;
+    step.stops[0].mark = (hypofab_mark){HYPOFAB_P, lowest + pow(0.5, i) * (200.0 - lowest)};
+    assert_int_equal(hypofab_test_run(&material, &state, &step, 1, &coarse, recorder_take, &r, &outcome), HYPOFAB_OK);
+    assert_int_equal(r.rows[r.n - 1].event, HYPOFAB_EVENT_STOP);
+    assert_true(fabs(outcome.last.value[HYPOFAB_P] - step.stops[0].mark.value) < 1e-9 * 200.0);
+    assert_true(outcome.last.value[HYPOFAB_EPS_ZZ] > -0.02);
+    recorder_clear(&r);
+  }
+}
+
 static void test_cycles_that_cannot_be(void **unused) {
   (void)unused;
   hypofab_material material;
@@ -257,6 +287,7 @@ int main(void) {
       cmocka_unit_test(test_rows_that_are_kept),
       cmocka_unit_test(test_what_can_be_cycled),
       cmocka_unit_test(test_stops),
+      cmocka_unit_test(test_a_stop_that_comes_and_goes),
       cmocka_unit_test(test_cycles_that_cannot_be),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
