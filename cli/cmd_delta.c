@@ -59,7 +59,7 @@ static const struct argp_option options[] = {
      .arg = "NAME",
      .doc =
          "Print nothing but the lines to paste into a deck, STATEV(1:6), or the input of a finite element code: deck, "
-         "statev, abaqus, kratos or calculix"},
+         "statev, abaqus, kratos or calculix. Besides, and with it: what FILE is (below)"},
     {.name = "set", .key = KEY_SET, .arg = "NAME", .doc = "Element set of --format abaqus (default: SOIL)"},
     {.name = "void-ratio",
      .key = KEY_VOID_RATIO,
@@ -96,10 +96,17 @@ static const char *parse_weight(struct argp_state *state, const char *text) {
   return NULL;
 }
 
-static const delta_format *parse_format(struct argp_state *state, const char *text) {
+/* --format is asked twice: what the lines are for, and, as with the other commands, what FILE is. The names differ. */
+static void parse_format(struct argp_state *state, const char *text, choices *chosen) {
   const delta_format *format = delta_format_find(text);
-  if (!format) argp_error(state, "--format: '%s'; expected deck, statev, abaqus, kratos or calculix", text);
-  return format;
+  for (int i = 0; !format && hypofab_contact_kind(i); i++)
+    if (!strcmp(text, hypofab_contact_kind(i))) {
+      chosen->contacts.format.kind = text;
+      return;
+    }
+  if (!format)
+    argp_error(state, "--format: '%s'; expected deck, statev, abaqus, kratos or calculix, or a kind of FILE", text);
+  chosen->format = format;
 }
 
 /* A whole number, 1 or more, at the beginning of a text; what follows is left. */
@@ -152,7 +159,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       return 0;
     case KEY_CORRECTED: chosen->corrected = true; return 0;
     case KEY_WEIGHT: chosen->weight = parse_weight(state, text); return 0;
-    case KEY_FORMAT: chosen->format = parse_format(state, text); return 0;
+    case KEY_FORMAT: parse_format(state, text, chosen); return 0;
     case KEY_SET:
       chosen->target.set = text;
       chosen->target.has_set = true;

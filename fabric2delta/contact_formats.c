@@ -49,6 +49,10 @@ static const struct contact_format {
     {"table", is_anything, read_table},
 };
 
+const char *hypofab_contact_kind(int index) {
+  return index >= 0 && (size_t)index < sizeof formats / sizeof *formats ? formats[index].kind : NULL;
+}
+
 static hypofab_status choose(const contact_reader *reader, const hypofab_contact_format *format,
                              const struct contact_format **chosen) {
   enum { HEAD = 64 };

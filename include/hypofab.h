@@ -811,6 +811,9 @@ typedef struct hypofab_contact_format {
   void *progress_user;       /**< handed to it */
 } hypofab_contact_format;
 
+/** Kind number index (0-based) of contact files, "lammps", ...; NULL past the last one. */
+const char *hypofab_contact_kind(int index);
+
 /** What was found while reading contacts. */
 typedef struct hypofab_contact_report {
   int64_t listed;            /**< contacts in the file */

@@ -108,6 +108,16 @@ ensure_python() {
   done
 }
 
+# ensure_python_alone REQUIREMENTS: packages without those that they depend on, into the same environment.
+ensure_python_alone() {
+  local stamp
+  stamp=$venv/$(basename "$1")
+  if cmp --silent "$1" "$stamp"; then return; fi
+  stage "Installing $(basename "$1") alone" "$python" -m pip install --disable-pip-version-check --no-deps \
+    --requirement "$1" || stop 2 "pip could not install $1"
+  cp "$1" "$stamp"
+}
+
 # build FOLDER TITLE OPTION... [-- TARGET...]: configure and build; all targets when none is named.
 build() {
   local folder=$1 title=$2

@@ -156,6 +156,21 @@ static void refuse(const char *expected, const char *first, const char *second, 
   run_free(&run);
 }
 
+/* --format serves for the lines and for the kind of file, at once too. */
+static void kind_of_file(void **state) {
+  (void)state;
+  program_run lines = program("delta", SAMPLE, "--format", "table", "--format", "statev", NULL);
+  program_run plain = program("delta", SAMPLE, "--format", "statev", NULL);
+  assert_int_equal(lines.exit_code, 0);
+  assert_string_equal(lines.out, plain.out);
+  program_run wrong = program("delta", SAMPLE, "--format", "lammps", NULL);
+  assert_int_equal(wrong.exit_code, 2);
+  assert_string_equal(wrong.out, "");
+  run_free(&wrong);
+  run_free(&plain);
+  run_free(&lines);
+}
+
 static void wrong_usage(void **state) {
   (void)state;
   refuse("--format: 'ansys'; expected deck", "--format=ansys", NULL, NULL);
@@ -182,6 +197,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(the_deck_takes_its_lines, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(other_axes, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(weight_functions, scratch_make, scratch_remove),
+      cmocka_unit_test_setup_teardown(kind_of_file, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(wrong_usage, scratch_make, scratch_remove)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
