@@ -19,6 +19,11 @@ def particle(body: Body) -> Body:
     return O.bodies[body.clumpId] if body.isClumpMember else body
 
 
+def disc_number(body: Body) -> int:
+    """Number of a disc in its clump, 0 or 1; a clump follows its two discs in the order of ids."""
+    return body.id - body.clumpId + 2
+
+
 def particles() -> list:
     """All particles of the scene in the order of their ids."""
     ids = {particle(body).id for body in grains()}

@@ -6,7 +6,7 @@ import numpy as np
 from yade import Body, O, Sphere, utils
 
 from common.boundary import Boundary
-from common.cloud import grains, particle, particles, solid_volume
+from common.cloud import disc_number, grains, particle, particles, solid_volume
 from common.folder import Folder
 from common.material import Material
 
@@ -42,7 +42,8 @@ PARTICLE_COLUMNS = ["id", "radius", "x", "y", "z", "angle", "n_contacts"]
 def contacts() -> np.ndarray:
     """Contacts between particles, one row each with the columns CONTACT_COLUMNS; contacts with walls are left out.
 
-    Two clumps that touch in two points have two contacts.
+    Two clumps that touch in two points have two contacts. cellDist_z, not needed in two dimensions, tells them apart:
+    it is 0 to 3, twice the number of the first clump's disc plus that of the second's.
 
     The normal runs from id1 to id2. The branch vector is x2 + cell * cellDist - x1, because YADE does not wrap
     positions into the cell. Forces are those that id1 exerts on id2.
@@ -55,9 +56,12 @@ def contacts() -> np.ndarray:
             continue
         if contact.geom.penetrationDepth < 0:
             continue
-        first, second = particle(first), particle(second)
         period = np.array(contact.cellDist, dtype=float) if O.periodic else np.zeros(3)
-        branch = np.array(second.state.pos) + cell @ period - np.array(first.state.pos)
+        shift = cell @ period
+        if first.isClumpMember:
+            period[2] += 2 * disc_number(first) + disc_number(second)
+        first, second = particle(first), particle(second)
+        branch = np.array(second.state.pos) + shift - np.array(first.state.pos)
         geom, phys = contact.geom, contact.phys
         rows.append(
             [

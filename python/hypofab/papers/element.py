@@ -1,17 +1,16 @@
 """Element tests of DEM samples: the four directional tests of paper 000 with delta from the samples' contacts."""
 
 import json
-import math
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from hypofab.papers.program import run
+from hypofab.papers.program import run, run_json
 from hypofab.papers.runs import DemRun
-from hypofab.results import Array, TestResult, read_run
+from hypofab.results import TestResult, read_run
 
 SMALL = 1e-3
 """Deviatoric strain of the secant stiffness (paper 000)."""
@@ -81,48 +80,23 @@ def secants(tests: Mapping[str, TestResult]) -> dict[str, float]:
     return {name: float(np.interp(SMALL, test.eps_q, test.q)) / SMALL for name, test in tests.items()}
 
 
-def log_ratios(stiffness: Mapping[str, float]) -> Array:
-    """Logarithms of stiffnesses over their geometric mean: what directions tell, without the material's magnitude."""
-    logs = np.log(list(stiffness.values()))
-    return logs - logs.mean()
-
-
 @dataclass(frozen=True)
 class Fit:
-    """c fitted to measured ratios of stiffness."""
+    """c fitted to measured ratios of stiffness by `hypofab fit-c`."""
 
     c: float
+    lower: float
+    upper: float
+    """Bounds of the interval of 95 %."""
     error: float
     """Root-mean-square error of the logarithms of the ratios."""
-    at_bound: bool
-    """Whether the best c lies at an end of the range: the data then bound c from one side only."""
 
 
-def fit_c(error: Callable[[float], float], low: float = 0.01, high: float = 5.0, points: int = 28) -> Fit:
-    """The c with the least error: a grid in log c, then golden section around its best point."""
-    grid = np.geomspace(low, high, points)
-    values = [error(c) for c in grid]
-    best = int(np.argmin(values))
-    if best in (0, points - 1):
-        return Fit(float(grid[best]), values[best], True)
-    a, b = math.log(grid[best - 1]), math.log(grid[best + 1])
-    golden = (math.sqrt(5) - 1) / 2
-    for _ in range(12):
-        x, y = b - golden * (b - a), a + golden * (b - a)
-        if error(math.exp(x)) < error(math.exp(y)):
-            b = y
-        else:
-            a = x
-    c = math.exp((a + b) / 2)
-    return Fit(c, error(c), False)
-
-
-def ratio_error(loadings: list[Loading], measured: Mapping[str, float]) -> Callable[[float], float]:
-    """Root-mean-square error of the logarithms of the ratios as a function of c."""
-
-    def error(c: float) -> float:
-        tests = secants(element_tests(loadings, c))
-        difference = log_ratios({name: tests[name] for name in measured}) - log_ratios(measured)
-        return float(np.sqrt(np.mean(difference**2)))
-
-    return error
+def fit_c(loadings: list[Loading], measured: Mapping[str, float]) -> Fit:
+    """The c that fits the ratios of the measured stiffnesses [kPa] best."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "deck.yaml"
+        file.write_text(json.dumps(deck(loadings, 0.05, None), indent=1), encoding="utf-8")
+        targets = ",".join(f"{name}={value:.9g}" for name, value in measured.items())
+        result = run_json("fit-c", file, "--target", targets)
+    return Fit(result["c"], result["lower"], result["upper"], result["misfit"])

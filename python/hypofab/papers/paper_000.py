@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from hypofab import paper000
 from hypofab.figures import line_style
 from hypofab.papers import draw
-from hypofab.papers.element import SMALL, Fit, Loading, element_tests, fit_c, ratio_error, secants
+from hypofab.papers.element import SMALL, Fit, Loading, element_tests, fit_c, secants
 from hypofab.papers.program import run_json
 from hypofab.papers.runs import Curve, DemRun, read_curve, read_dem
 from hypofab.results import TestResult
@@ -104,7 +104,7 @@ def directional(runs: Path, prefix: str) -> tuple[dict[str, DemRun], dict[str, C
     curves = {name: read_curve(runs / f"{prefix}{name}") for name in TESTS}
     loadings = [Loading(name, samples[sample], axis) for name, (sample, axis) in TESTS.items()]
     measured = {name: curve.secant(SMALL) for name, curve in curves.items()}
-    return samples, curves, loadings, fit_c(ratio_error(loadings, measured))
+    return samples, curves, loadings, fit_c(loadings, measured)
 
 
 def compare(runs: Path, out: Path) -> str:
@@ -116,9 +116,9 @@ def compare(runs: Path, out: Path) -> str:
         samples, curves, loadings, fit = directional(runs, prefix)
         strain = min(0.1, min(float(curve.axial[-1]) for curve in curves.values())) if prefix else 0.1
         element = {c: element_tests(loadings, c, strain) for c in (0.05, fit.c)}
-        bound = ", an end of the range searched" if fit.at_bound else ""
         text += [
-            f"{prefix or 'dense '}samples: c fitted = {fit.c:.3g}{bound}, rms error of log ratios {fit.error:.3f}",
+            f"{prefix.strip('_') or 'dense'} samples: c = {fit.c:.3g} ({fit.lower:.3g} to {fit.upper:.3g}),"
+            f" root-mean-square error of the logarithms of the ratios {fit.error:.3f}",
             states(samples),
             stiffness_table(
                 {
@@ -139,6 +139,7 @@ def compare(runs: Path, out: Path) -> str:
                 _zoom(paper_c, element[0.05], (0.42, 0.12, 0.4, 0.4))
                 _zoom(fitted, element[fit.c], (0.42, 0.12, 0.4, 0.4))
                 for axes in (dem, paper_c, fitted):
+                    axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
                     axes.legend(loc="upper right", ncols=2)
         if not prefix:
             surface(out / "000_fabric.png", samples)
