@@ -121,6 +121,9 @@ def rates(fans: list[Fan], path: Path) -> None:
         for column, mechanism in enumerate(MECHANISMS):
             for row, which in enumerate(("dZ", "dA")):
                 panel = axes[3 * row + column]
+                if (mechanism, which) == ("reorientation", "dZ"):
+                    panel.set_axis_off()  # zero by definition
+                    continue
                 for index, fan in enumerate(fans):
                     style = line_style(index)
                     label = f"Z = {fan.coordination:.2f}"
@@ -254,7 +257,7 @@ def compare(runs: Path, out: Path) -> str:
         raise ResultError(f"{runs}: no run folder of probe_strain.py; examples/dem/README.md says how to make them")
     fans = sorted((read_fan(folder) for folder in folders), key=lambda fan: -fan.coordination)
     responses(fans, out / "001_responses.png")
-    roses(fans[-1], out / "001_roses.png")
+    roses(fans[0], out / "001_roses.png")
     rates(fans, out / "001_rates.png")
     trends(fans, out / "001_trends.png")
     return summary(fans)

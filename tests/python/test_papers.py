@@ -1,0 +1,62 @@
+"""The comparisons with the papers, on the DEM runs that the documentation shows."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hypofab import papers
+from hypofab.papers import paper_001, paper_003
+from hypofab.papers.element import SMALL, Loading, element_tests, secants
+from hypofab.papers.runs import read_curve, read_dem
+from hypofab.results import ResultError
+
+RESULTS = Path(__file__).parents[2] / "examples" / "dem" / "results"
+
+
+def test_anisotropic_sample_is_stiffest_along_its_contacts_in_dem_and_element_tests() -> None:
+    runs = RESULTS / "000"
+    dem = {name: read_curve(runs / name).secant(SMALL) for name in ("A-0", "A-90", "I-0", "I-90")}
+    assert dem["A-0"] > 1.05 * max(dem["I-0"], dem["I-90"])
+    assert dem["A-90"] < min(dem["I-0"], dem["I-90"])
+    aniso = read_dem(runs / "aniso")
+    element = secants(element_tests([Loading("A-0", aniso, "y"), Loading("A-90", aniso, "x")], 0.05))
+    assert element["A-0"] > 1.05 * element["A-90"]
+
+
+def test_no_contact_is_lost_in_the_zone_of_no_loss() -> None:
+    fan = paper_001.read_fan(RESULTS / "001" / "probes_a")
+    lost = fan.rate("loss", "dZ")
+    gained = fan.rate("gain", "dZ")
+    assert np.all(lost[(fan.alpha > 198.4) & (fan.alpha < 251.6)] == 0)
+    assert np.all(gained[(fan.alpha > 18.4) & (fan.alpha < 71.6)] == 0)
+    assert lost.max() > 100
+    # Normals that follow the strain give E = Z/2 (docs/changes.md); the stress response is linear.
+    assert fan.coefficient("reorientation", "E")[0] == pytest.approx(fan.coordination / 2, rel=0.1)
+    assert paper_001.linear_stiffness(fan)[1] < 0.02
+
+
+def test_anisotropies_tell_the_friction() -> None:
+    test = paper_003.read_test(RESULTS / "003", "dep")
+    loaded = test.strain > 0.004
+    predicted, contacts = (test.micro[name][loaded] for name in ("sin_phi_from_anisotropies", "sin_phi"))
+    assert predicted == pytest.approx(contacts, abs=0.05)
+    walls = np.interp(test.strain, test.curve.axial, test.curve.q / test.p / 2)[loaded]
+    assert contacts == pytest.approx(walls, abs=0.05)
+
+
+@pytest.mark.parametrize("paper", ["003"])
+def test_every_paper_has_a_table_and_figures(paper: str, tmp_path: Path) -> None:
+    assert papers.compare(paper, RESULTS / paper, tmp_path).count("|") > 50
+    assert list(tmp_path.glob(f"{paper}_*.png"))
+
+
+def test_missing_runs_are_named(tmp_path: Path) -> None:
+    with pytest.raises(ResultError, match="examples/dem/README"):
+        papers.compare("000", tmp_path, tmp_path / "out")
+
+
+def test_unfinished_run_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "manifest.json").write_text('{"parameters": {}, "results": {}, "finished": false}')
+    with pytest.raises(ResultError, match="not finished"):
+        read_dem(tmp_path)
