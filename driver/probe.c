@@ -2,7 +2,6 @@
 #include "driver/probe.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
