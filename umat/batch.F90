@@ -265,9 +265,11 @@ contains
       type(state_type) :: state
       type(report_type) :: report
       integer :: outcome
+      real(wp) :: increment(6)
       state = state_type(stress(k, :6), 0.0_wp, void_ratio(k))
       if (present(delta)) state%delta = delta(k, :6)
-      call update_state(m, options, state, strain(k, :6), report, outcome)
+      increment = strain(k, :6)
+      call update_state(m, options, state, increment, report, outcome)
       status(k) = int(outcome, c_int)
       evaluations = evaluations + report%evaluations
       scalar = scalar + 1
