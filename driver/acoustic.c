@@ -1,6 +1,5 @@
 #include "driver/acoustic.h"
 
-#include <float.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multimin.h>
 #include <math.h>

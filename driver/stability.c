@@ -1,5 +1,4 @@
 /* Stability of a state, whatever is done to it, and of the control that a step applies. docs/stability.md. */
-#include <float.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import cycles, figures, papers, probe_surfaces, stiffness
+from hypofab import cycles, dilatancy, figures, papers, probe_surfaces, stiffness
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.probes import has_probes, is_classical, read_probes
@@ -86,6 +86,9 @@ def parser() -> argparse.ArgumentParser:
     cyclic.add_argument("--last", type=float, metavar="N", help="draw up to this cycle")
     cyclic.add_argument("--name", default="cycles", help="of the figures, written to DIR (default: %(default)s)")
 
+    drained = commands.add_parser("dilatancy", help="stress-dilatancy and critical states of drained triaxial tests")
+    drained.add_argument("directory", metavar="DIR", type=Path, help="results of hypofab run")
+
     laboratory = commands.add_parser("laboratory", help="laboratory tests computed beside what was measured: a report")
     laboratory.add_argument("directory", metavar="DIR", type=Path, help="folder with the files of the tests")
     laboratory.add_argument("-o", "--output", metavar="OUT", type=Path, required=True, help="folder for the report")
@@ -111,6 +114,14 @@ def main(arguments: list[str] | None = None) -> int:
             print(cycles.table(tests, options.quantity))
             figure = cycles.figure(tests, options.quantity, logarithmic=options.log, last=options.last)
             save(figure, options.directory / options.name)
+        elif options.command == "dilatancy":
+            groups, materials = dilatancy.read_drained(options.directory)
+            for number, (name, tests) in enumerate(groups.items()):
+                suffix = f"_{number + 1}" if len(groups) > 1 else ""
+                ratio = dilatancy.stress_dilatancy({name: tests}, materials[name]["phi_c"])
+                save(ratio, options.directory / f"stress_dilatancy{suffix}")
+                ends = dilatancy.critical_states({name: tests}, materials[name])
+                save(ends, options.directory / f"critical_states{suffix}")
         elif options.command == "laboratory":
             print(laboratory(options.directory, options.output, options.program, options.catalogue))
         else:

@@ -5,6 +5,7 @@ Compression positive: eps_v > 0 is contraction, dilation has d eps_v/d eps_1 < 0
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from matplotlib import rc_context
@@ -12,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hypofab.figures import COLUMN, STYLE
-from hypofab.results import Array
+from hypofab.results import Array, ResultError, TestResult, read_run, read_summary
 
 LEVELS = (0.005, 0.01, 0.025, 0.05, 0.075, 0.10, 0.125, 0.15)
 """Axial strains at which paper 003 takes its points."""
@@ -54,6 +55,47 @@ def dilatancy_points(test: DrainedTest, levels: Sequence[float] = LEVELS, width:
         slopes.append(np.polyfit(test.eps_1[near], test.eps_v[near], 1)[0])
         ratios.append(np.mean(test.q[near]) / np.mean(test.p[near]))
     return DilatancyPoints(test.name, np.array(slopes), np.array(ratios))
+
+
+def drained_test(result: TestResult, compression_positive: bool) -> DrainedTest | None:
+    """A triaxial compression test from a result file; None when it is no such test.
+
+    The axis is the one that has shortened most. The stresses across it must be alike, to 1e-6 of the axial one.
+    """
+    sign = 1 if compression_positive else -1
+    axis = int(np.argmax(sign * result.strain[-1, :3]))
+    first, second = (sign * result.stress[:, (axis + k) % 3] for k in (1, 2))
+    axial, shear = sign * result.stress[:, axis], np.abs(result.stress[:, 3:]).max()
+    if max(np.abs(first - second).max(), shear) > 1e-6 * np.abs(axial).max() or result.strain[-1, axis] == 0:
+        return None
+    strain = sign * (result.strain[:, axis] - result.strain[0, axis])
+    if strain[-1] <= 0:
+        return None
+    return DrainedTest(result.name, strain, sign * result.eps_v, axial - first, result.p, result.void_ratio)
+
+
+def read_drained(directory: Path) -> tuple[dict[str, list[DrainedTest]], dict[str, Mapping[str, float]]]:
+    """Triaxial compression tests of a folder of results by material (its friction angle and critical void ratio), and
+    the parameters of these materials. Isochoric tests, whose volume stays within 1e-9, are left out.
+    """
+    run, summary = read_run(directory), read_summary(directory)
+    groups: dict[str, list[DrainedTest]] = {}
+    parameters: dict[str, Mapping[str, float]] = {}
+    entries = {test["name"]: test for test in summary["tests"]}
+    for result in run.tests:
+        test = drained_test(result, run.compression_positive)
+        if test is None or np.abs(test.eps_v).max() < 1e-9:
+            continue
+        material = entries[result.name]["material"]
+        label = next((name for name, known in parameters.items() if known == material), f"material {len(groups) + 1}")
+        parameters[label] = material
+        groups.setdefault(label, []).append(test)
+    if not groups:
+        raise ResultError(f"{directory}: no drained triaxial compression test")
+    title = summary.get("title")
+    if len(groups) == 1 and title:
+        return {title: groups["material 1"]}, {title: parameters["material 1"]}
+    return groups, parameters
 
 
 def rowe(dilatancy: Array, friction_angle: float) -> Array:

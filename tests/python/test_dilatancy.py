@@ -1,18 +1,26 @@
 """Stress and dilatancy: closed forms and what the figures show."""
 
+import os
+import subprocess
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from hypofab.__main__ import main
 from hypofab.dilatancy import (
     DrainedTest,
     critical_ratio,
     critical_states,
     critical_void_ratio,
     dilatancy_points,
+    read_drained,
     rowe,
     stress_dilatancy,
 )
+from hypofab.results import ResultError
 
+PROGRAM = os.environ.get("HYPOFAB_PROGRAM")
 PARAMETERS = {"phi_c": 30.0, "h_s": 1e6, "n": 0.25, "e_c0": 0.95}
 
 
@@ -46,6 +54,29 @@ def test_open_points_are_not_critical_yet() -> None:
     faces = {line.get_label(): line.get_markerfacecolor() for line in figure.axes[0].lines}
     assert faces["a"] != "none"
     assert faces["b"] == "none"
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="HYPOFAB_PROGRAM does not name the program")
+def test_example_reaches_the_critical_state(tmp_path: Path) -> None:
+    """Ends of all six tests on the model's own lines; stresses and slopes near Rowe's; undrained tests left out."""
+    deck = Path(__file__).resolve().parents[2] / "examples" / "drained_series.yaml"
+    subprocess.run([PROGRAM, "run", str(deck), "-o", str(tmp_path)], check=True, capture_output=True)
+    ((title, tests),), parameters = read_drained(tmp_path)[0].items(), read_drained(tmp_path)[1]
+    assert len(tests) == 6
+    for test in tests:
+        material = parameters[title]
+        assert test.q[-1] / test.p[-1] == pytest.approx(critical_ratio(material["phi_c"]), rel=0.02)
+        assert test.void_ratio[-1] == pytest.approx(critical_void_ratio(test.p[-1], material), rel=0.02)
+        points = dilatancy_points(test)
+        late = np.abs(points.dilatancy) < 0.2
+        np.testing.assert_allclose(points.ratio[late], rowe(points.dilatancy[late], material["phi_c"]), rtol=0.05)
+    assert main(["dilatancy", str(tmp_path)]) == 0
+    assert (tmp_path / "critical_states.png").exists()
+
+    undrained = deck.with_name("undrained_triaxial.yaml")
+    subprocess.run([PROGRAM, "run", str(undrained), "-o", str(tmp_path / "u")], check=True, capture_output=True)
+    with pytest.raises(ResultError, match="no drained triaxial"):
+        read_drained(tmp_path / "u")
 
 
 def test_stress_dilatancy_has_a_column_for_each_group_and_one_scale() -> None:
