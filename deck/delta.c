@@ -90,9 +90,12 @@ static hypofab_status resolve_fabric(const deck_source *source, unsigned index, 
   if (!(state->c > 0))
     return deck_refuse(source, HYPOFAB_BAD_STATE, deck_key_format("states[%u].delta.c", index), "%g, expected c > 0",
                        state->c);
-  status = hypofab_fabric_to_delta(&state->fabric, R, state->c, &state->map);
+  state->weight = given->weight;
+  status = hypofab_fabric_to_delta_weighted(&state->fabric, R, state->c, state->weight, &state->map);
   if (status)
-    return deck_refuse(source, status, deck_key_format("states[%u].delta", index), "%s", hypofab_last_message());
+    return deck_refuse(source, status,
+                       deck_key_format(given->weight ? "states[%u].delta.weight" : "states[%u].delta", index), "%s",
+                       hypofab_last_message());
   state->has_fabric = true;
   memcpy(state->initial.delta, state->map.delta, sizeof state->initial.delta);
   return HYPOFAB_OK;
@@ -111,6 +114,7 @@ static hypofab_status check_source(const deck_source *source, unsigned index, co
     bool given, allowed;
     const char *key, *with;
   } extras[] = {{given->c, given->fabric || given->contacts, "c", "fabric or contacts"},
+                {given->weight, given->fabric || given->contacts, "weight", "fabric or contacts"},
                 {given->particles, given->contacts, "particles", "contacts"},
                 {given->columns, given->contacts, "columns", "contacts"},
                 {given->separator, given->contacts, "separator", "contacts"}};

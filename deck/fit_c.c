@@ -44,7 +44,9 @@ static hypofab_status delta_at(const fit *one, unsigned index, double c, double 
   hypofab_status status =
       one->corrected && fabric.contacts ? hypofab_fabric_correct(&fabric, -1.0, &fabric) : HYPOFAB_OK;
   hypofab_initial_delta map;
-  if (!status) status = hypofab_fabric_to_delta(&fabric, one->study->materials[state->material].R, c, &map);
+  if (!status)
+    status =
+        hypofab_fabric_to_delta_weighted(&fabric, one->study->materials[state->material].R, c, state->weight, &map);
   if (!status) memcpy(delta, map.delta, sizeof map.delta);
   return status;
 }

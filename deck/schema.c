@@ -56,6 +56,7 @@ static const cyaml_schema_field_t delta_fields[] = {
     SIX_NUMBERS("fabric", deck_delta, fabric),
     OPTIONAL_TEXT("contacts", deck_delta, contacts),
     CYAML_FIELD_FLOAT_PTR("c", OPTIONAL, deck_delta, c),
+    OPTIONAL_TEXT("weight", deck_delta, weight),
     OPTIONAL_TEXT("particles", deck_delta, particles),
     CYAML_FIELD_MAPPING_PTR("columns", OPTIONAL_POINTER, deck_delta, columns, columns_fields),
     OPTIONAL_TEXT("separator", deck_delta, separator),

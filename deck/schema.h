@@ -42,6 +42,7 @@ typedef struct deck_delta {
   double *fabric;
   char *contacts;
   double *c;
+  char *weight;
   char *particles;
   deck_columns *columns;
   char *separator;

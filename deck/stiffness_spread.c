@@ -56,7 +56,9 @@ static hypofab_status delta_of(const hypofab_study *study, unsigned index, const
   else if (corrected && fabric.contacts)
     status = hypofab_fabric_correct(&fabric, bootstrap ? hypofab_bootstrap_noise2(bootstrap) : -1.0, &fabric);
   hypofab_initial_delta map;
-  if (!status) status = hypofab_fabric_to_delta(&fabric, study->materials[state->material].R, state->c, &map);
+  if (!status)
+    status =
+        hypofab_fabric_to_delta_weighted(&fabric, study->materials[state->material].R, state->c, state->weight, &map);
   for (int i = 0; i < 6 && !status; i++) delta[i] = map.delta[i];
   return status;
 }

@@ -18,7 +18,8 @@ typedef struct study_state {
   bool has_fabric;
   hypofab_fabric fabric;
   hypofab_initial_delta map;
-  double c; /**< parameter of the weight function */
+  double c;           /**< parameter of the weight function */
+  const char *weight; /**< its name, in the deck; NULL: the default */
   /* The contact list, to be read again; both files NULL when the fabric is not from one. */
   char *contact_file, *particle_file;
   hypofab_contact_format contact_format;

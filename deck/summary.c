@@ -17,6 +17,7 @@ static json_t *fabric_object(const study_state *state, const deck_delta *given) 
   json_object_set_new(object, "fabric", json_numbers(fabric->fabric, 6, 1.0));
   json_object_set_new(object, "anisotropy", json_number(fabric->anisotropy));
   json_object_set_new(object, "c", json_number(state->c));
+  json_object_set_new(object, "weight_function", json_string(state->weight ? state->weight : hypofab_weight_name(0)));
   json_object_set_new(object, "weight", json_number(state->map.weight));
   return object;
 }

@@ -192,6 +192,16 @@ static void delta_comes_from_each_source(void **state) {
   check_initial_delta("{fabric: [0.318, 0.362, 0.320, 0.001, -0.002, 0], c: 0.05}", anisotropic, 0.0005e-5);
 }
 
+static void the_weight_function_is_chosen_by_name(void **state) {
+  (void)state;
+  const double N[6] = {0.318, 0.362, 0.320, 0.001, -0.002, 0};
+  hypofab_fabric fabric;
+  hypofab_initial_delta map;
+  assert_int_equal(hypofab_fabric_from_tensor(N, &fabric), HYPOFAB_OK);
+  assert_int_equal(hypofab_fabric_to_delta_weighted(&fabric, 1e-4, 0.2, "rational", &map), HYPOFAB_OK);
+  check_initial_delta("{fabric: [0.318, 0.362, 0.320, 0.001, -0.002, 0], c: 0.2, weight: rational}", map.delta, 0);
+}
+
 static void delta_of_a_contact_list_is_that_of_its_fabric(void **state) {
   (void)state;
   const char *list = HYPOFAB_SOURCE_DIR "/examples/data/aniso_3000_contacts.txt.gz";
@@ -459,6 +469,7 @@ int main(void) {
       TEST(compression_positive_mirrors_the_columns_with_a_sign),
       TEST(delta_comes_from_each_source),
       TEST(delta_of_a_contact_list_is_that_of_its_fabric),
+      TEST(the_weight_function_is_chosen_by_name),
       TEST(without_intergranular_strain_delta_stays_zero),
       TEST(rows_columns_and_summary_are_those_asked_for),
       TEST(the_integrator_is_a_choice),
