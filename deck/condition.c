@@ -157,9 +157,21 @@ static hypofab_status refuse_parameters(const deck_source *source, step_place pl
   return HYPOFAB_OK;
 }
 
+/* Water that cannot be compressed: the conditions hold the volume, the deck says what is held outside. */
+static hypofab_status resolve_held(const deck_source *source, step_place place, const deck_water *given,
+                                   hypofab_step *step) {
+  if (given->K_w || given->porosity)
+    return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".pore_water.held"),
+                       "is for steps that hold the volume, expected it alone, or K_w and porosity");
+  hypofab_status status = hypofab_step_hold_total_stress(step, *given->held);
+  return status ? deck_refuse(source, status, step_key(place, ".pore_water.held"), "%s", hypofab_last_message())
+                : HYPOFAB_OK;
+}
+
 /* Pore water on the conditions of a drained step: K_w/n, or K_w where the porosity is in it, as in the UMAT. */
 static hypofab_status resolve_water(const hypofab_study *study, const deck_source *source, step_place place,
                                     const deck_water *given, hypofab_step *step) {
+  if (given->held) return resolve_held(source, place, given, step);
   const study_state *state = &study->states[study->tests[place.test].state];
   const double K_w = given->K_w ? *given->K_w : study->materials[state->material].K_w;
   const double porosity = given->porosity ? *given->porosity : 1;

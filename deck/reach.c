@@ -7,10 +7,9 @@
 static double prescribed_rate(const hypofab_step *step, hypofab_quantity quantity) {
   /* The void ratio follows the volume: of its rate only zero is known without integrating. */
   const bool is_volume = quantity == HYPOFAB_VOID_RATIO;
-  double rate, largest = 0;
+  double rate;
   if (!control_prescribes(step, is_volume ? HYPOFAB_EPS_V : quantity, &rate)) return NAN;
-  for (int i = 0; i < 6; ++i) largest = fmax(largest, fabs(step->rate[i]));
-  if (quantity != HYPOFAB_TIME && fabs(rate) <= 1e-12 * largest) return 0; /* a held quantity, to rounding */
+  if (control_holds(step, is_volume ? HYPOFAB_EPS_V : quantity)) return 0;
   return is_volume ? NAN : rate;
 }
 

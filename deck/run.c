@@ -35,22 +35,33 @@ static void write_row(const hypofab_study *study, int columns, const hypofab_row
   fwrite(line + 1, 1, (size_t)used - 1, stream); /* without the blank in front */
 }
 
-/* How far a step is: by its cycles, or by the distance that its quantity still has to its end. */
-static double fraction_of_step(const hypofab_step *step, const hypofab_row *before, const hypofab_row *row) {
-  if (step->cycle.count > 0) return row->value[HYPOFAB_CYCLE] / (double)step->cycle.count;
-  hypofab_mark end = step->until;
-  const double start = before->value[end.quantity];
-  if (step->history.n > 0) end.value = start + step->history.time[step->history.n - 1] - step->history.time[0];
-  return (row->value[end.quantity] - start) / (end.value - start);
+/* How far the study is, when a part of a step of the present test is done. */
+static double fraction_done(const run *run, int step, double part) {
+  const study_test *test = &run->study->tests[run->index];
+  part = isfinite(part) ? fmin(fmax(part, 0), 1) : 0;
+  return (run->index + (step + part) / test->n_steps) / run->study->deck->tests_count;
 }
 
-/* How far the study is. */
-static double fraction_done(const run *run, const hypofab_row *row) {
-  const study_test *test = &run->study->tests[run->index];
+/* The part of a plain step that is done, by the distance that its quantity still has to its end. */
+static double part_of_step(const run *run, const hypofab_row *row) {
   const hypofab_row *before = row->step > 0 ? &run->result->ends[row->step - 1] : &run->result->start;
-  double fraction = fraction_of_step(&test->steps[row->step], before, row);
-  fraction = isfinite(fraction) ? fmin(fmax(fraction, 0), 1) : 0;
-  return (run->index + (row->step + fraction) / test->n_steps) / run->study->deck->tests_count;
+  const hypofab_mark until = run->study->tests[run->index].steps[row->step].until;
+  const double start = before->value[until.quantity];
+  return (row->value[until.quantity] - start) / (until.value - start);
+}
+
+static void report(run *run, double fraction) {
+  if (run->progress && run->progress(run->study->deck->tests[run->index].name, fraction, run->user))
+    run->asked_to_stop = true;
+}
+
+/* Between half cycles and points of a history, where there may be no row for long. */
+static int watch(int step, double done, void *user) {
+  run *run = user;
+  const hypofab_step *cyclic = &run->study->tests[run->index].steps[step];
+  const double all = cyclic->cycle.count > 0 ? (double)cyclic->cycle.count : cyclic->history.n - 1;
+  report(run, fraction_done(run, step, done / all));
+  return run->asked_to_stop;
 }
 
 static int take_row(const hypofab_row *row, void *user) {
@@ -60,9 +71,9 @@ static int take_row(const hypofab_row *row, void *user) {
   result->ends[row->step] = *row;
   result->steps_begun = (unsigned)row->step + 1;
   write_row(run->study, study_columns(&run->study->tests[run->index]), row, run->file.stream);
-  if (run->progress)
-    run->asked_to_stop =
-        run->progress(run->study->deck->tests[run->index].name, fraction_done(run, row), run->user) != 0;
+  const hypofab_step *step = &run->study->tests[run->index].steps[row->step];
+  if (step->cycle.count == 0 && step->history.n == 0)
+    report(run, fraction_done(run, row->step, part_of_step(run, row)));
   return run->asked_to_stop || ferror(run->file.stream); /* output_commit reports the latter */
 }
 
@@ -82,8 +93,10 @@ static hypofab_status run_test(run *run, const char *directory) {
   write_header(study_columns(test), run->file.stream);
 
   hypofab_test_outcome outcome = {0};
+  hypofab_test_options options = test->options;
+  options.watch = watch;
   status = hypofab_test_run(&study->materials[state->material], &state->initial, test->steps, (int)test->n_steps,
-                            &test->options, take_row, run, &outcome);
+                            &options, take_row, run, &outcome);
   if (status >= HYPOFAB_BAD_MATERIAL) {
     output_discard(&run->file);
     return hypofab_fail(status, "%s: test '%s': %s", study->path, name, hypofab_last_message());

@@ -103,9 +103,9 @@ static const cyaml_schema_field_t table_fields[] = {
     CYAML_FIELD_SEQUENCE("hold", OPTIONAL_POINTER, deck_table, hold, &quantity_name, 0, CYAML_UNLIMITED),
     CYAML_FIELD_END};
 
-static const cyaml_schema_field_t water_fields[] = {CYAML_FIELD_FLOAT_PTR("K_w", OPTIONAL, deck_water, K_w),
-                                                    CYAML_FIELD_FLOAT_PTR("porosity", OPTIONAL, deck_water, porosity),
-                                                    CYAML_FIELD_END};
+static const cyaml_schema_field_t water_fields[] = {
+    CHOICE("held", deck_water, held, axis_names), CYAML_FIELD_FLOAT_PTR("K_w", OPTIONAL, deck_water, K_w),
+    CYAML_FIELD_FLOAT_PTR("porosity", OPTIONAL, deck_water, porosity), CYAML_FIELD_END};
 
 #define TWO_NUMBERS(key, structure, member) \
   CYAML_FIELD_SEQUENCE_FIXED(key, OPTIONAL_POINTER, structure, member, &number, 2)

@@ -91,8 +91,9 @@ typedef struct deck_table {
   unsigned hold_count;
 } deck_table;
 
-/** Water in the pores of a step that is drained without it. */
+/** Water in the pores of a step that is drained without it; or, with held alone, of one that holds the volume. */
 typedef struct deck_water {
+  int *held; /**< axis whose total normal stress is held */
   double *K_w;
   double *porosity;
 } deck_water;

@@ -234,3 +234,10 @@ int control_prescribes(const hypofab_step *step, hypofab_quantity quantity, doub
   for (int i = 0; i < 6; i++) *rate += combination[i] * step->rate[i] * unit / size[i];
   return 1;
 }
+
+int control_holds(const hypofab_step *step, hypofab_quantity quantity) {
+  double rate, largest = 0.0;
+  if (quantity == HYPOFAB_TIME || !control_prescribes(step, quantity, &rate)) return 0;
+  for (int i = 0; i < 6; i++) largest = fmax(largest, fabs(step->rate[i]));
+  return fabs(rate) <= singular * largest;
+}

@@ -41,4 +41,7 @@ hypofab_status control_choose_branch(const hypofab_material *material, const hyp
  */
 int control_prescribes(const hypofab_step *step, hypofab_quantity quantity, double *rate);
 
+/** Is a quantity held by the conditions of a step, to rounding? */
+int control_holds(const hypofab_step *step, hypofab_quantity quantity);
+
 #endif

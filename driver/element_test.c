@@ -25,6 +25,12 @@ hypofab_status run_deliver(run *r, int event) {
   return send(r, event) ? hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted at time %g", r->time) : HYPOFAB_OK;
 }
 
+/* Let the caller interrupt between legs. */
+static hypofab_status watch(run *r, double done) {
+  if (!r->watch || !r->watch(r->step_number, done, r->user)) return HYPOFAB_OK;
+  return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted at time %g", r->time);
+}
+
 static void remember(const run *r, const hypofab_step *step, double values[HYPOFAB_MAX_STOPS]) {
   for (int i = 0; i < step->n_stops; i++)
     values[i] = quantity_value(step->stops[i].mark.quantity, &r->observer, r->time, &r->state);
@@ -43,6 +49,7 @@ static hypofab_status run_cycles(run *r, const hypofab_step *step) {
     r->observer.half_cycles += 1.0;
     remember(r, step, r->last_reversal);
     if (kept && i + 1 < plan.legs) status = run_deliver(r, HYPOFAB_EVENT_REVERSAL);
+    if (!status) status = watch(r, 0.5 * r->observer.half_cycles);
   }
   return status;
 }
@@ -60,6 +67,7 @@ static hypofab_status run_history(run *r, const hypofab_step *step) {
     status = leg_run(r, &leg);
     if (status || r->stop >= 0) return status;
     if (i + 1 < history->n && step->rows > 0) status = run_deliver(r, HYPOFAB_EVENT_ROW);
+    if (!status) status = watch(r, i);
   }
   return status;
 }
@@ -94,6 +102,7 @@ hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_
   run r = {.observer = {.material = material, .axis = 2, .normal = 1, .with_stability = options && options->stability},
            .sink = sink,
            .user = user,
+           .watch = options ? options->watch : NULL,
            .state = {.material = *initial}};
   hypofab_status status = hypofab_state_check(material, initial);
   for (int i = 0; !status && i < n_steps; i++) status = step_check(&steps[i], i + 1);

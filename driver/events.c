@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/message.h"
+#include "driver/tensor.h"
 
 /* Brent's method halves at worst: enough iterations for a bracket of one part in 2^60. */
 enum { MAX_ITERATIONS = 60 };
@@ -32,9 +33,8 @@ int event_is_between(const event *event, double before, double after) {
 }
 
 double event_branch_value(const event *event, const test_state *state, double along) {
-  const double *d = state->material.delta;
-  const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5]));
-  return (event->branch == HYPOFAB_REVERSAL ? -along : along) * size / event->observer->material->R;
+  return (event->branch == HYPOFAB_REVERSAL ? -along : along) * tensor_norm(state->material.delta) /
+         event->observer->material->R;
 }
 
 double event_branch(const event *event, double time, const test_state *state) {

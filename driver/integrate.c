@@ -10,6 +10,7 @@
 
 #include "base/message.h"
 #include "driver/integrate_method.h"
+#include "driver/tensor.h"
 
 static const long default_max_steps = 1000000;
 
@@ -32,14 +33,8 @@ const char *hypofab_integrator_name(hypofab_integrator integrator) {
 }
 
 void integrator_sums(const test_state *state, const double D[6], test_state *rate) {
-  double square = 0.0;
-  rate->work = 0.0;
-  for (int i = 0; i < 6; i++) {
-    const double twice = i < 3 ? 1.0 : 2.0;
-    square += twice * D[i] * D[i];
-    rate->work += twice * D[i] * state->material.stress[i];
-  }
-  rate->path = sqrt(square);
+  rate->path = tensor_norm(D);
+  rate->work = tensor_dot(state->material.stress, D);
 }
 
 int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {

@@ -14,7 +14,8 @@ typedef struct run {
   integrator *it;
   hypofab_row_sink sink;
   void *user;
-  int step_number; /**< from 0 */
+  int (*watch)(int step, double done, void *user); /**< may be NULL */
+  int step_number;                                 /**< from 0 */
   double time;
   test_state state;
   double step_start[HYPOFAB_MAX_STOPS];    /**< of the stops' quantities: at the start of the step */

@@ -10,11 +10,10 @@ void observer_frame(const hypofab_step *step, int *axis, int *normal, int *later
 }
 
 int observer_is_undrained(const hypofab_step *step) {
-  double rate;
   if (step->pore_water.stiffness > 0.0) return 1;
   for (int i = 0; i < 6; i++)
     if (step->pore_water.on_stress[i] != 0.0) return 1;
-  return !step->history.n && control_prescribes(step, HYPOFAB_EPS_V, &rate) && rate == 0.0;
+  return !step->history.n && control_holds(step, HYPOFAB_EPS_V);
 }
 
 void observer_begin_step(observer *observer, const hypofab_step *step, const test_state *state) {

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "driver/quantity.h"
 #include "driver/step.h"
+#include "driver/tensor.h"
 
 /* Parameters in the order of their bits. */
 static const char *const parameters[] = {"axis",      "normal",    "rate",   "drive",  "lode",   "b",         "alpha",
@@ -131,12 +131,11 @@ static hypofab_status take_axis(const char *name, double value, int *axis) {
 }
 
 static hypofab_status take_direction(const double given[6], double direction[6]) {
-  double square = 0.0;
-  for (int k = 0; k < 6; k++) square += (k < 3 ? 1.0 : 2.0) * given[k] * given[k];
-  if (!(square > 0.0 && isfinite(square)))
+  const double size = tensor_norm(given);
+  if (!(size > 0.0 && isfinite(size)))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "direction has the norm %g, expected six numbers that are not all zero",
-                        sqrt(square));
-  for (int k = 0; k < 6; k++) direction[k] = given[k] / sqrt(square);
+                        size);
+  for (int k = 0; k < 6; k++) direction[k] = given[k] / size;
   return HYPOFAB_OK;
 }
 

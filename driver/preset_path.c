@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "driver/preset.h"
+#include "driver/tensor.h"
 
 static const double radians = 3.14159265358979323846 / 180.0;
 
@@ -28,9 +29,8 @@ static void along(hypofab_step *step, const double S[6], const preset_values *v)
 }
 
 static void normalise(double S[6]) {
-  double square = 0.0;
-  for (int i = 0; i < 6; i++) square += (i < 3 ? 1.0 : 2.0) * S[i] * S[i];
-  for (int i = 0; i < 6; i++) S[i] /= sqrt(square);
+  const double size = tensor_norm(S);
+  for (int i = 0; i < 6; i++) S[i] /= size;
 }
 
 void preset_proportional_stress(hypofab_step *step, const preset_values *v) { along(step, v->direction, v); }

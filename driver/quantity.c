@@ -51,6 +51,7 @@ static const char *const names[HYPOFAB_N_QUANTITIES] = {"time",
                                                         "eps_path",
                                                         "stress_work",
                                                         "cycle",
+                                                        "eta_signed",
                                                         "work2",
                                                         "work2_cos",
                                                         "control_det",
@@ -158,6 +159,8 @@ double quantity_value(hypofab_quantity quantity, const observer *o, double time,
     case HYPOFAB_EPS_PATH: return state->path;
     case HYPOFAB_WORK: return state->work;
     case HYPOFAB_CYCLE: return 0.5 * o->half_cycles;
+    case HYPOFAB_ETA_SIGNED:
+      return -3.0 * (0.5 * (stress[o->normal] + stress[o->lateral]) - stress[o->axis]) / tensor_trace(stress);
     default: break;
   }
   if (quantity <= HYPOFAB_EPS_YZ) return state->strain[quantity - HYPOFAB_EPS_XX];

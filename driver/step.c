@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "driver/control.h"
 #include "driver/quantity.h"
 
 void step_clear(hypofab_step *step) {
@@ -76,6 +77,15 @@ hypofab_status hypofab_step_pore_water(hypofab_step *step, double stiffness) {
     for (int j = 0; j < 3; j++) step->on_strain[i][j] += stiffness * mean;
   }
   step->pore_water.stiffness = stiffness;
+  return HYPOFAB_OK;
+}
+
+hypofab_status hypofab_step_hold_total_stress(hypofab_step *step, int axis) {
+  if (axis < 0 || axis > 2)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "axis is %d, expected 0, 1 or 2 for x, y or z", axis);
+  if (step->pore_water.stiffness > 0.0 || !control_holds(step, HYPOFAB_EPS_V))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "the step does not hold the volume, expected one that does");
+  for (int j = 0; j < 6; j++) step->pore_water.on_stress[j] = j == axis ? 1.0 : 0.0;
   return HYPOFAB_OK;
 }
 

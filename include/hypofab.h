@@ -81,7 +81,8 @@ typedef struct hypofab_material {
   double R;      /**< size of the elastic strain range, the largest |delta| [-] */
   double beta_r; /**< exponent of the evolution of delta [-] */
   double chi;    /**< exponent of the interpolation in rho [-] */
-  double K_w;    /**< bulk stiffness of pore water for locally undrained runs; 0: drained; UMAT only [stress] */
+  double K_w;    /**< bulk stiffness of pore water for locally undrained runs; 0: drained [stress]. The UMAT's; element
+                      tests take it where a step has pore water */
   double e_0;    /**< initial void ratio; UMAT only [-] */
 } hypofab_material;
 
@@ -302,11 +303,12 @@ typedef enum hypofab_quantity {
   HYPOFAB_TOT_XX,              /**< total stress T - pore_pressure 1; shear components are those of T */
   HYPOFAB_TOT_YY,
   HYPOFAB_TOT_ZZ,
-  HYPOFAB_P_TOT,    /**< mean total stress p + pore_pressure */
-  HYPOFAB_EPS_ACC,  /**< |eps|: norm of the strain since the start of the test, what has accumulated */
-  HYPOFAB_EPS_PATH, /**< length of the strain path, integral of |D| */
-  HYPOFAB_WORK,     /**< stress work per volume, integral of T:D [stress] */
-  HYPOFAB_CYCLE,    /**< half cycles done in the step, over two */
+  HYPOFAB_P_TOT,      /**< mean total stress p + pore_pressure */
+  HYPOFAB_EPS_ACC,    /**< |eps|: norm of the strain since the start of the test, what has accumulated */
+  HYPOFAB_EPS_PATH,   /**< length of the strain path, integral of |D| */
+  HYPOFAB_WORK,       /**< stress work per volume, integral of T:D [stress] */
+  HYPOFAB_CYCLE,      /**< half cycles done in the step, over two */
+  HYPOFAB_ETA_SIGNED, /**< q_signed/p */
   /* Stability (hypofab_stability, hypofab_control_stability). In rows NaN unless hypofab_test_options.stability asks
    * for them: they cost about a thousand rate evaluations each row. */
   HYPOFAB_FIRST_STABILITY,
@@ -472,6 +474,15 @@ hypofab_status hypofab_step_preset_with(hypofab_step *step, const char *name, co
  */
 hypofab_status hypofab_step_pore_water(hypofab_step *step, double stiffness);
 
+/**
+ * @brief Say which total normal stress the apparatus holds in a step that holds the volume.
+ *
+ * The pore pressure then takes what the effective stress along the axis loses. Presets do this themselves.
+ * @param axis 0, 1, 2 for x, y, z
+ * @return HYPOFAB_BAD_ARGUMENT when the conditions of the step do not hold the volume
+ */
+hypofab_status hypofab_step_hold_total_stress(hypofab_step *step, int axis);
+
 /** Name of preset number index (0-based), NULL past the last one. */
 const char *hypofab_preset_name(int index);
 
@@ -515,8 +526,12 @@ const char *hypofab_integrator_name(hypofab_integrator integrator);
 typedef struct hypofab_test_options {
   hypofab_integrator integrator;
   double tolerance; /**< relative tolerance of the integrator; default 1e-8, of CVODE and IDA 1e-11 */
-  long max_steps;   /**< integrator steps per step of the test; default 1000000 */
-  int stability;    /**< non-zero: rows with the quantities of stability too */
+  long
+      max_steps; /**< integrator steps per step of the test (per half cycle, per point of a history); default 1000000 */
+  int stability; /**< non-zero: rows with the quantities of stability too */
+  /** Called after each half cycle and point of a history, whether rows are delivered or not, with the step (0-based),
+   * the cycles or points done in it, and what the sink gets; non-zero stops the test with HYPOFAB_INTERRUPTED. */
+  int (*watch)(int step, double done, void *user);
 } hypofab_test_options;
 
 /** How an element test ended. */

@@ -83,15 +83,18 @@ static size_t split(char *line, char **fields, size_t most) {
   return n;
 }
 
+enum { MOST_FIELDS = 128 };
+
 table table_read(const char *path) {
-  char *text = scratch_read(path), *rest = text, *fields[64];
+  char *text = scratch_read(path), *rest = text, *fields[MOST_FIELDS];
   assert_true(*text && text[strlen(text) - 1] == '\n'); /* the last row is a whole line too */
   char *line = strsep(&rest, "\n");
-  table t = {.columns = split(line, fields, 64)};
+  table t = {.columns = split(line, fields, MOST_FIELDS)};
   t.names = calloc(t.columns, sizeof *t.names);
   for (size_t i = 0; i < t.columns; ++i) t.names[i] = strdup(fields[i]);
   while ((line = strsep(&rest, "\n")) && *line) {
-    if (split(line, fields, 64) != t.columns) fail_msg("%s: row %zu has other fields than the header", path, t.rows);
+    if (split(line, fields, MOST_FIELDS) != t.columns)
+      fail_msg("%s: row %zu has other fields than the header", path, t.rows);
     t.value = realloc(t.value, (t.rows + 1) * t.columns * sizeof *t.value);
     for (size_t i = 0; i < t.columns; ++i) {
       char *end;

@@ -74,6 +74,8 @@ static void steps_mean_the_same_under_either_sign(void **state) {
       "      - conditions: [{quantity: eps_zz, rate: %s1}, {quantity: p, rate: 3}, {stress: [1, -1, 0, 0, 0, 0], rate: "
       "%s5}, {stress: [0, 0, 0, 1, 0, 0], strain: [0, 0, 0, 3000, 0, 0], rate: %s2}, {quantity: sig_xz}, {quantity: "
       "sig_yz}]\n        until: {quantity: time, value: 0.002}\n",
+      "      - control: {xx: {strain_rate: 0}, yy: {strain_rate: %s-1}, zz: {strain_rate: %s1}}\n"
+      "        pore_water: {held: x}\n        until: {quantity: time, value: 0.002}\n",
       "      - {preset: hollow_cylinder, axis: y, normal: z, alpha_rate: 30, q_rate: 2, until: {quantity: time, value: "
       "1}}\n",
   };
@@ -231,6 +233,11 @@ static void wrong_steps_are_refused(void **state) {
        ".pore_water.K_w", "a stiffness > 0"},
       {"{preset: drained_triaxial_compression, axis: z, pore_water: {porosity: 2}, until: {quantity: time, value: 1}}",
        ".pore_water.porosity", "at most 1"},
+      {"{preset: drained_triaxial_compression, axis: z, pore_water: {held: x}, until: {quantity: time, value: 1}}",
+       ".pore_water.held", "does not hold the volume"},
+      {"{preset: drained_triaxial_compression, axis: z, pore_water: {held: x, K_w: 1}, until: {quantity: time, value: "
+       "1}}",
+       ".pore_water.held", "expected it alone"},
       {"{conditions: [{quantity: p}], until: {quantity: time, value: 1}}", ".conditions", "1 conditions, expected six"},
       {"{conditions: [{quantity: q}, {quantity: p}, {quantity: s}, {quantity: t}, {quantity: sig_xy}, {quantity: "
        "sig_xz}], until: {quantity: time, value: 1}}",

@@ -130,6 +130,27 @@ static void test_rows_that_are_kept(void **unused) {
   recorder_clear(&full);
 }
 
+static int stop_after_three(int step, double done, void *user) {
+  (void)step;
+  *(double *)user = done;
+  return done >= 3.0;
+}
+
+/* Without rows the caller can still look in, and stop. */
+static void test_watching(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_state state;
+  double done = 0.0;
+  sand("hochstetten", 100.0, 0.7, &material, &state);
+  hypofab_step step = preset("drained_triaxial_compression", 2, -1, 1);
+  step.cycle = (hypofab_cycle){
+      .count = 1000000, .quantity = HYPOFAB_Q_SIGNED, .upper = 30, .relative = 1, .kept = HYPOFAB_KEEP_END};
+  const hypofab_test_options options = {.watch = stop_after_three};
+  assert_int_equal(hypofab_test_run(&material, &state, &step, 1, &options, NULL, &done, NULL), HYPOFAB_INTERRUPTED);
+  assert_true(done == 3.0);
+}
+
 /* Amplitudes of strain, of stress ratio, absolute values, and setting out downwards. */
 static void test_what_can_be_cycled(void **unused) {
   (void)unused;
@@ -141,6 +162,7 @@ static void test_what_can_be_cycled(void **unused) {
       {"drained_triaxial_compression", {3, HYPOFAB_EPS_ZZ, -1e-3, 1e-3, 1, 1, 0}, -1e-3, 1e-3},
       {"undrained_triaxial_extension", {3, HYPOFAB_EPS_ZZ, -5e-4, 5e-4, 0, 1, 0}, 5e-4, -5e-4},
       {"drained_triaxial_compression", {3, HYPOFAB_ETA, 0.2, 0.5, 0, 1, 0}, 0.5, 0.2},
+      {"constant_p_triaxial_compression", {3, HYPOFAB_ETA_SIGNED, -0.3, 0.3, 0, 1, 0}, 0.3, -0.3},
       {"drained_triaxial_compression", {3, HYPOFAB_PHI_MOB, 5, 15, 0, 1, 0}, 15, 5},
       {"oedometer_loading", {3, HYPOFAB_SIG_ZZ, -300, -150, 0, 1, 0}, -300, -150},
       {"isotropic_extension", {3, HYPOFAB_P, 60, 140, 0, 1, 0}, 60, 140},
@@ -184,6 +206,7 @@ static void test_stops(void **unused) {
   };
   steps[1].until = (hypofab_mark){HYPOFAB_TIME, 100.0};
   steps[1].rows = 10;
+  double most_cycles = 0.0;
   for (int i = 0; i < 4; i++) {
     recorder r = {0};
     hypofab_test_outcome outcome;
@@ -196,6 +219,8 @@ static void test_stops(void **unused) {
     assert_int_equal(r.rows[end].step, 0);
     assert_int_equal(r.rows[end].stop, 1);
     assert_int_equal(r.n, end + 1 + 10); /* the next step ran */
+    assert_true(r.rows[end + 1].value[HYPOFAB_CYCLE] == 0.0);
+    most_cycles = fmax(most_cycles, r.rows[end].value[HYPOFAB_CYCLE]);
     const hypofab_quantity q = stops[i].mark.quantity;
     double last_reversal = r.rows[0].value[q];
     for (int k = 1; k <= end; k++) {
@@ -210,6 +235,7 @@ static void test_stops(void **unused) {
     }
     recorder_clear(&r);
   }
+  assert_true(most_cycles > 1.0);
 }
 
 /* A quantity that meets a value and turns back inside one large step of the integrator is not missed. */
@@ -285,6 +311,7 @@ int main(void) {
       cmocka_unit_test(test_cycles_are_the_steps_they_stand_for),
       cmocka_unit_test(test_one_sided_cycles_at_constant_s),
       cmocka_unit_test(test_rows_that_are_kept),
+      cmocka_unit_test(test_watching),
       cmocka_unit_test(test_what_can_be_cycled),
       cmocka_unit_test(test_stops),
       cmocka_unit_test(test_a_stop_that_comes_and_goes),

@@ -122,6 +122,29 @@ static void test_phases(void **unused) {
   recorder_clear(&r);
 }
 
+/* An undrained test written as conditions, told what is held: the preset's. */
+static void test_held_total_stress(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  hypofab_state state;
+  hypofab_test_outcome outcome[2];
+  const hypofab_argument arguments[] = {{"axis", {2}}, {"normal", {1}}, {"rate", {1e-3}}};
+  hypofab_step step = {0};
+  sand(&material, &state);
+  assert_int_equal(hypofab_step_preset_with(&step, "undrained_biaxial_compression", arguments, 3), HYPOFAB_OK);
+  step.until = (hypofab_mark){HYPOFAB_TIME, 10.0};
+  for (int i = 0; i < 2; i++) {
+    assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, NULL, NULL, &outcome[i]), HYPOFAB_OK);
+    memset(&step.pore_water, 0, sizeof step.pore_water);
+    assert_int_equal(hypofab_step_hold_total_stress(&step, 3), HYPOFAB_BAD_ARGUMENT);
+    assert_int_equal(hypofab_step_hold_total_stress(&step, 0), HYPOFAB_OK);
+  }
+  assert_true(fabs(outcome[0].last.value[HYPOFAB_PORE_PRESSURE]) > 5.0);
+  assert_true(outcome[0].last.value[HYPOFAB_PORE_PRESSURE] == outcome[1].last.value[HYPOFAB_PORE_PRESSURE]);
+  assert_int_equal(hypofab_step_preset(&step, "drained_triaxial_compression", 2, 1.0), HYPOFAB_OK);
+  assert_int_equal(hypofab_step_hold_total_stress(&step, 0), HYPOFAB_BAD_ARGUMENT);
+}
+
 static void test_refusals(void **unused) {
   (void)unused;
   hypofab_step step = {0};
@@ -139,6 +162,7 @@ int main(void) {
       cmocka_unit_test(test_water_is_that_of_the_umat),
       cmocka_unit_test(test_stiff_water_is_isochoric),
       cmocka_unit_test(test_phases),
+      cmocka_unit_test(test_held_total_stress),
       cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
