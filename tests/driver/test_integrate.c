@@ -118,6 +118,47 @@ static void test_reversal_inside_a_step(void **unused) {
   compare(&material, &state, steps, 4, HYPOFAB_OK);
 }
 
+/* A preset with a value for each parameter that it must have. */
+static hypofab_status fill_preset(hypofab_step *step, const char *name) {
+  static const hypofab_argument values[] = {{"axis", {2}},
+                                            {"normal", {1}},
+                                            {"lode", {20}},
+                                            {"stiffness", {1e4}},
+                                            {"b", {0.4}},
+                                            {"alpha", {30}},
+                                            {"direction", {0, 0.2, -1, 0, 0, 0}}};
+  hypofab_argument arguments[8];
+  int n = 0, required;
+  const char *parameter;
+  for (int k = 0; (parameter = hypofab_preset_parameter(name, k, &required)); k++)
+    for (size_t i = 0; required && i < sizeof values / sizeof *values; i++)
+      if (strcmp(values[i].name, parameter) == 0) arguments[n++] = values[i];
+  if (strcmp(name, "hollow_cylinder") == 0) arguments[n++] = (hypofab_argument){"alpha_rate", {1}};
+  return hypofab_step_preset_with(step, name, arguments, n);
+}
+
+/* Every preset from an anisotropic state: mixed control of every kind, an end that nothing prescribes, and a reversal
+ * where the preset does not go on in the direction of delta. */
+static void test_every_preset(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  hypofab_state state = {{-80, -90, -150, 0, 0, 0}, {0}, 0.7};
+  state.delta[2] = -material.R * (1.0 - 1e-15);
+  int n_compared = 0;
+  const char *name;
+  for (int i = 0; (name = hypofab_preset_name(i)); i++) {
+    hypofab_step step;
+    memset(&step, 0, sizeof step);
+    assert_int_equal(fill_preset(&step, name), HYPOFAB_OK);
+    step.until = (hypofab_mark){HYPOFAB_EPS_PATH, 1e-3};
+    step.rows = 4;
+    compare(&material, &state, &step, 1, HYPOFAB_OK);
+    n_compared++;
+  }
+  assert_true(n_compared > 20);
+}
+
 /* Stress control beyond the peak: the same finding at the same place. */
 static void test_stops(void **unused) {
   (void)unused;
@@ -160,6 +201,7 @@ int main(void) {
       cmocka_unit_test(test_cycles_with_events),
       cmocka_unit_test(test_undrained_cycles),
       cmocka_unit_test(test_reversal_inside_a_step),
+      cmocka_unit_test(test_every_preset),
       cmocka_unit_test(test_stops),
       cmocka_unit_test(test_names),
   };
