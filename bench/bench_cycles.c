@@ -1,6 +1,7 @@
 /*
- * Cost of drained stress cycles: the conditions of paper 002 (plane strain, s' = 127 kPa held, t cycled by 0.02 s'),
- * 5,000 cycles from an isotropic state, and what a cycle costs in memory: nothing when only reversals are kept.
+ * Cost of drained stress cycles: the programme of paper 002 (plane strain, s' = 127 kPa held, t cycled to one side by
+ * 0.02 to 0.04 s', from lateral to axial stress K = 0.69 or from an isotropic state), 5,000 cycles of Hochstetten sand,
+ * reversals kept. Memory must not depend on their number.
  */
 #include <stdio.h>
 #include <sys/resource.h>
@@ -28,16 +29,16 @@ static double now(void) {
 
 static double cpu(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-static void time_cycles(const char *drive, double by_stress, long count, double tolerance) {
-  const double s = 127.0;
+static void time_cycles(const char *name, double K, double amplitude, double by_stress, long count, double tolerance) {
+  const double s = 127.0, lateral = 2.0 * s * K / (1.0 + K);
   hypofab_material material;
   hypofab_sand("hochstetten", &material);
-  const hypofab_state state = {{-s, -s, -s, 0, 0, 0}, {0}, 0.7};
+  const hypofab_state state = {{-lateral, lateral - 2.0 * s, -s, 0, 0, 0}, {0}, 0.7};
   const hypofab_argument arguments[] = {{"axis", {1}}, {"normal", {2}}, {"drive", {by_stress}}};
   hypofab_step step = {0};
   hypofab_step_preset_with(&step, "constant_s_biaxial_compression", arguments, 3);
   step.cycle = (hypofab_cycle){
-      .count = count, .quantity = HYPOFAB_T, .upper = 0.02 * s, .relative = 1, .kept = HYPOFAB_KEEP_REVERSALS};
+      .count = count, .quantity = HYPOFAB_T, .upper = amplitude * s, .relative = 1, .kept = HYPOFAB_KEEP_REVERSALS};
   const hypofab_test_options options = {.tolerance = tolerance};
   hypofab_test_outcome outcome;
   tally t = {0};
@@ -51,15 +52,17 @@ static void time_cycles(const char *drive, double by_stress, long count, double 
       "%-6s %6ld cycles, tolerance %.0e: %6.2f s (%.2f s of processor time)  %8ld steps  %9ld evaluations  %5.0f ns "
       "each  %6ld rows  "
       "eps_axial %.6e  peak memory %ld kB\n",
-      drive, count, tolerance, spent, spent_cpu, outcome.integrator_steps, outcome.evaluations,
+      name, count, tolerance, spent, spent_cpu, outcome.integrator_steps, outcome.evaluations,
       1e9 * spent_cpu / (double)outcome.evaluations, t.rows, t.axial, usage.ru_maxrss);
 }
 
 int main(void) {
-  printf("constant s' = 127 kPa, t between 0 and 0.02 s', plane strain, Hochstetten sand:\n");
-  time_cycles("stress", 1.0, 500, 1e-6);
-  time_cycles("stress", 1.0, 5000, 1e-6);
-  time_cycles("stress", 1.0, 500, 1e-8);
-  time_cycles("strain", 0.0, 500, 1e-6);
+  time_cycles("T20", 0.69, 0.02, 1.0, 5000, 1e-6);
+  time_cycles("T30", 0.69, 0.03, 1.0, 5000, 1e-6);
+  time_cycles("T40", 0.69, 0.04, 1.0, 5000, 1e-6);
+  time_cycles("T400", 1.0, 0.04, 1.0, 5000, 1e-6);
+  time_cycles("T20", 0.69, 0.02, 1.0, 500, 1e-6);
+  time_cycles("T20", 0.69, 0.02, 1.0, 500, 1e-8);
+  time_cycles("T20 by strain", 0.69, 0.02, 0.0, 500, 1e-6);
   return 0;
 }
