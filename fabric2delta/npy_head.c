@@ -32,7 +32,8 @@ static const char *read_kind(const char *p, npy_field *field) {
   field->kind = p[2];
   char *end;
   field->size = (int)strtol(p + 3, &end, 10);
-  if (end == p + 3 || *end != '\'' || !strchr("fiu", field->kind)) return NULL;
+  if (end == p + 3 || *end != '\'' || !strchr("fiuV", field->kind)) return NULL;
+  if (field->kind == 'V') return field->size > 0 && order == '|' ? end + 1 : NULL; /* padding */
   const bool known = field->kind == 'f' ? field->size == 4 || field->size == 8
                                         : field->size == 1 || field->size == 2 || field->size == 4 || field->size == 8;
   return known && (order == '<' || (order == '|' && field->size == 1)) ? end + 1 : NULL;
@@ -83,7 +84,11 @@ static bool read_records(const char *p, npy_head *head) {
     int64_t lengths[2] = {1, 1};
     int count = 0;
     if (*p == '(' && (!(p = read_lengths(p, lengths, &count)) || count != 1 || lengths[0] > 9)) return false;
-    if (*p++ != ')' || !add_field(head, &field, (int)lengths[0])) return false;
+    if (*p++ != ')') return false;
+    if (field.kind == 'V')
+      head->row += (size_t)field.size;
+    else if (!add_field(head, &field, (int)lengths[0]))
+      return false;
   }
   return true;
 }
@@ -100,7 +105,7 @@ static hypofab_status read_dictionary(const lines *input, const char *text, npy_
   head->rows = lengths[0];
   if (records) return read_records(kind, head) ? HYPOFAB_OK : refuse(input, "records of an unknown kind");
   npy_field field = {0};
-  if (!read_kind(kind, &field)) return refuse(input, "numbers of an unknown kind");
+  if (!read_kind(kind, &field) || field.kind == 'V') return refuse(input, "numbers of an unknown kind");
   if (lengths[1] < 1 || lengths[1] > NPY_MAX_FIELDS) return refuse(input, "no columns, or too many");
   for (int64_t i = 0; i < lengths[1]; i++) add_field(head, &field, 1);
   return HYPOFAB_OK;

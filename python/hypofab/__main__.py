@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import cycles, dilatancy, figures, papers, probe_surfaces, stiffness
+from hypofab import contact_files, cycles, dilatancy, figures, papers, probe_surfaces, stiffness
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.probes import has_probes, is_classical, read_probes
@@ -96,6 +96,11 @@ def parser() -> argparse.ArgumentParser:
     laboratory.add_argument(
         "--program", default=default_program(), metavar="PATH", help="hypofab (default: %(default)s)"
     )
+
+    contacts = commands.add_parser("contacts", help="contacts of HDF5, .npz or VTK XML as the .npy that hypofab reads")
+    contacts.add_argument("source", metavar="FILE", type=Path, help="ends in " + ", ".join(contact_files.OPENERS))
+    contacts.add_argument("target", metavar="OUT.npy", type=Path)
+    contacts.add_argument("--group", help="HDF5: group or dataset; .npz: arrays; .npy without names: names of columns")
     return top
 
 
@@ -122,12 +127,14 @@ def main(arguments: list[str] | None = None) -> int:
                 save(ratio, options.directory / f"stress_dilatancy{suffix}")
                 ends = dilatancy.critical_states({name: tests}, materials[name])
                 save(ends, options.directory / f"critical_states{suffix}")
+        elif options.command == "contacts":
+            print(f"{contact_files.convert(options.source, options.target, options.group)} contacts")
         elif options.command == "laboratory":
             print(laboratory(options.directory, options.output, options.program, options.catalogue))
         else:
             for directory in options.directories:
                 plot(directory, options)
-    except (ResultError, CatalogueError) as error:
+    except (ResultError, CatalogueError, contact_files.ContactFileError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     return 0

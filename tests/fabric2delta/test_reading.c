@@ -100,7 +100,7 @@ static void test_images(void **state) {
 /* A list that names every contact twice is found out although the memory for pairs holds a part of them only. */
 static void test_duplicates_in_little_memory(void **state) {
   (void)state;
-  enum { PAIRS = 400000 };
+  enum { PAIRS = 120000 };
   const char *path = in_folder("twice.txt");
   FILE *file = fopen(path, "w");
   fputs("id1 id2 nx ny nz\n", file);
@@ -114,9 +114,9 @@ static void test_duplicates_in_little_memory(void **state) {
   assert_int_equal(sample.report.duplicates_one_in, 1);
   format.duplicate_memory = 1; /* 98,304 pairs */
   read_sample(path, &format, &sample);
-  assert_int_equal(sample.report.duplicates_one_in, 8);
-  /* A random eighth: 50,000 within four standard deviations of 209. */
-  if (llabs(sample.report.duplicates - PAIRS / 8) > 840) fail_msg("%lld", (long long)sample.report.duplicates);
+  assert_int_equal(sample.report.duplicates_one_in, 2);
+  /* A random half: 60,000 within four standard deviations of 173. */
+  if (llabs(sample.report.duplicates - PAIRS / 2) > 692) fail_msg("%lld", (long long)sample.report.duplicates);
 }
 
 /* ------------------------------------------------------- walls and regions */
@@ -199,7 +199,7 @@ static void test_plane(void **state) {
 
 /* --------------------------------------------------- packed, binary, wide */
 
-enum { MANY = 60000 };
+enum { MANY = 20000 };
 
 static const char *write_many(const char *name) {
   static double normals[MANY][3];
@@ -221,7 +221,7 @@ static char *load(const char *path, size_t *length) {
 
 static void test_threads(void **state) {
   (void)state;
-  const char *path = write_many("many.txt"); /* 5 MB: twenty chunks */
+  const char *path = write_many("many.txt"); /* 1.4 MB: six chunks */
   hypofab_contact_format format = {.threads = 1};
   const hypofab_fabric alone = read_fabric(path, &format);
   for (int threads = 2; threads <= 7; threads += 2) {
@@ -233,12 +233,12 @@ static void test_threads(void **state) {
   size_t length;
   char *text = load(path, &length);
   char *line = text;
-  for (int i = 0; i < 40000; i++) line = strchr(line, '\n') + 1;
+  for (int i = 0; i < 15000; i++) line = strchr(line, '\n') + 1;
   *line = 'x';
   line = strchr(line, '\n') + 1;
   *line = 'y';
   const char *spoilt_path = write_text("spoilt.txt", text);
-  for (int i = 0; i < 5; i++) REFUSE(spoilt_path, &format, "spoilt.txt:40001: column 1 (id1): 'x");
+  for (int i = 0; i < 5; i++) REFUSE(spoilt_path, &format, "spoilt.txt:15001: column 1 (id1): 'x");
   free(text);
 }
 
@@ -294,12 +294,12 @@ static void test_npy(void **state) {
     memcpy(rows[i].n, normals[i], sizeof normals[i]);
   }
   static const char names[] = "[('id1', '<i8'), ('id2', '<u8'), ('nx', '<f8'), ('ny', '<f8'), ('nz', '<f8')]";
-  hypofab_fabric fabric = read_fabric(write_npy("r.npy", names, "(60000,)", rows, MANY * sizeof *rows), NULL);
+  hypofab_fabric fabric = read_fabric(write_npy("r.npy", names, "(20000,)", rows, MANY * sizeof *rows), NULL);
   assert_same(&fabric, &text);
 
   static const char vector[] = "[('id1', '<i8'), ('id2', '<i8'), ('n', '<f8', (3,))]";
   const hypofab_contact_format parts = {.nx = "n[0]", .ny = "n[1]", .nz = "n[2]"};
-  fabric = read_fabric(write_npy("v.npy", vector, "(60000,)", rows, MANY * sizeof *rows), &parts);
+  fabric = read_fabric(write_npy("v.npy", vector, "(20000,)", rows, MANY * sizeof *rows), &parts);
   assert_same(&fabric, &text);
 
   double(*plain)[5] = calloc(MANY, sizeof *plain);
@@ -309,19 +309,19 @@ static void test_npy(void **state) {
     memcpy(&plain[i][2], normals[i], sizeof normals[i]);
   }
   const hypofab_contact_format numbers = {.id1 = "1", .id2 = "2", .nx = "3", .ny = "4", .nz = "5"};
-  const char *path = write_npy("p.npy", "'<f8'", "(60000, 5)", plain, MANY * sizeof *plain);
+  const char *path = write_npy("p.npy", "'<f8'", "(20000, 5)", plain, MANY * sizeof *plain);
   fabric = read_fabric(path, &numbers);
   assert_same(&fabric, &text);
   REFUSE(path, NULL, "no columns give the normals");
   plain[17][1] = 2.5;
-  REFUSE(write_npy("p.npy", "'<f8'", "(60000, 5)", plain, MANY * sizeof *plain), &numbers,
+  REFUSE(write_npy("p.npy", "'<f8'", "(20000, 5)", plain, MANY * sizeof *plain), &numbers,
          "p.npy: row 18: column 2 (id2): 2.5 is no particle id");
   plain[17][1] = 35;
   plain[19][3] = NAN;
-  REFUSE(write_npy("p.npy", "'<f8'", "(60000, 5)", plain, MANY * sizeof *plain), &numbers, "p.npy: row 20:", "finite");
-  REFUSE(write_npy("p.npy", "'<f8'", "(60001, 5)", plain, MANY * sizeof *plain), &numbers, "row 60001", "cut off");
-  REFUSE(write_npy("p.npy", "'>f8'", "(60000, 5)", plain, MANY * sizeof *plain), &numbers, "little-endian");
-  REFUSE(write_npy("p.npy", "'<f8'", "(300000,)", plain, MANY * sizeof *plain), &numbers, "another shape");
+  REFUSE(write_npy("p.npy", "'<f8'", "(20000, 5)", plain, MANY * sizeof *plain), &numbers, "p.npy: row 20:", "finite");
+  REFUSE(write_npy("p.npy", "'<f8'", "(20001, 5)", plain, MANY * sizeof *plain), &numbers, "row 20001", "cut off");
+  REFUSE(write_npy("p.npy", "'>f8'", "(20000, 5)", plain, MANY * sizeof *plain), &numbers, "little-endian");
+  REFUSE(write_npy("p.npy", "'<f8'", "(100000,)", plain, MANY * sizeof *plain), &numbers, "another shape");
   free(plain);
   free(rows);
 }
