@@ -59,7 +59,7 @@ static const struct argp_option options[] = {
      .arg = "NAME",
      .doc =
          "Print nothing but the lines to paste into a deck, STATEV(1:6), or the input of a finite element code: deck, "
-         "statev, abaqus, kratos or calculix. Besides, and with it: what FILE is (below)"},
+         "statev, abaqus, kratos, calculix or ogs. Besides, and with it: what FILE is (below)"},
     {.name = "set", .key = KEY_SET, .arg = "NAME", .doc = "Element set of --format abaqus (default: SOIL)"},
     {.name = "void-ratio",
      .key = KEY_VOID_RATIO,
@@ -105,7 +105,8 @@ static void parse_format(struct argp_state *state, const char *text, choices *ch
       return;
     }
   if (!format)
-    argp_error(state, "--format: '%s'; expected deck, statev, abaqus, kratos or calculix, or a kind of FILE", text);
+    argp_error(state, "--format: '%s'; expected deck, statev, abaqus, kratos, calculix or ogs, or a kind of FILE",
+               text);
   chosen->format = format;
 }
 

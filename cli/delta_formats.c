@@ -1,6 +1,7 @@
 /* A new format is one function and one row of the table. What the codes want: docs/umat.md, abaqus.md, hosts.md. */
 #include "cli/delta_formats.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -73,6 +74,17 @@ static void print_calculix(const double delta[6], const delta_target *target) {
     }
 }
 
+/* The behaviour of MGIS takes shear times sqrt(2), and OpenGeoSys hands internal state variables on as they are. */
+static void print_ogs(const double delta[6], const delta_target *target) {
+  (void)target;
+  double values[6];
+  for (int i = 0; i < 6; i++) values[i] = (i < 3 ? 1.0 : sqrt(2.0)) * delta[i] + 0.0;
+  puts("<!-- delta xx yy zz and sqrt(2) times xy xz yz; in plane strain and axial symmetry the first four alone -->");
+  fputs("<parameter><name>delta</name><type>Constant</type><values>", stdout);
+  for (int i = 0; i < 6; i++) printf(i ? " %.16e" : "%.16e", values[i]);
+  puts("</values></parameter>");
+}
+
 struct delta_format {
   const char *name;
   bool takes_set, takes_void_ratio, takes_elements;
@@ -82,7 +94,7 @@ struct delta_format {
 static const delta_format formats[] = {
     {"deck", false, false, false, print_deck},        {"statev", false, true, false, print_statev},
     {"abaqus", true, true, false, print_abaqus},      {"kratos", false, true, false, print_kratos},
-    {"calculix", false, false, true, print_calculix},
+    {"calculix", false, false, true, print_calculix}, {"ogs", false, false, false, print_ogs},
 };
 
 enum { N_FORMATS = sizeof formats / sizeof *formats };

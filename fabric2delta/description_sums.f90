@@ -81,7 +81,7 @@ contains
   !> Second pass: strong and weak network, and averages over directions instead of contacts.
   !>
   !> An average over directions counts each contact by the inverse of the density 1 + a:nn of contacts around it (Ouadfel
-  !> and Rothenburg 2001, Mech. Mater. 33, 201-221, Eq. 22; Guo and Zhao 2013, Comput. Geotech. 47, 1-15, Eq. 11).
+  !> and Rothenburg 2001, Mech. Mater. 33, 201-221; Guo and Zhao 2013, Comput. Geotech. 47, 1-15).
   !> @param n          number of contacts in the block
   !> @param block      (n): contacts with forces
   !> @param anisotropy (6): a, third kind of rank 2 of the contact normals

@@ -14,7 +14,7 @@ module hypofab_kinds
 
 contains
 
-  !> Third kind from the first (Kanatani 1984, Eqs. 5.11 on the sphere and 6.5 in the plane):
+  !> Third kind from the first (Kanatani 1984):
   !>   sphere  D2 = 15/2 (N2 - 1/3 1),  D4 = 315/8 (N4 - 6/7 {1 N2} + 3/35 {1 1}),
   !>   plane   D2 = 4 (N2 - 1/2 1),     D4 = 16 (N4 - {1 N2} + 1/8 {1 1}),
   !> where {} is the fully symmetric part.

@@ -84,6 +84,21 @@ static void lines_for_decks_and_hosts(void **state) {
   run_free(&run);
 }
 
+/* Shear times sqrt(2). */
+static void lines_for_opengeosys(void **state) {
+  (void)state;
+  program_run run = delta("ogs", NULL, NULL);
+  const char *text = strstr(run.out, "<values>");
+  assert_non_null(text);
+  double value[6];
+  assert_int_equal(sscanf(text, "<values>%lf %lf %lf %lf %lf %lf</values></parameter>", &value[0], &value[1], &value[2],
+                          &value[3], &value[4], &value[5]),
+                   6);
+  for (int i = 3; i < 6; i++) value[i] /= sqrt(2);
+  assert_delta(value, paper, false);
+  run_free(&run);
+}
+
 /* The deck takes the lines, and starts from this delta. */
 static void the_deck_takes_its_lines(void **state) {
   (void)state;
@@ -194,6 +209,7 @@ static void wrong_usage(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(lines_for_decks_and_hosts, scratch_make, scratch_remove),
+      cmocka_unit_test_setup_teardown(lines_for_opengeosys, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(the_deck_takes_its_lines, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(other_axes, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(weight_functions, scratch_make, scratch_remove),

@@ -1,5 +1,8 @@
 """One element in OpenGeoSys, through MGIS, against the element test driver."""
 
+import json
+import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +100,24 @@ def test_axial_symmetry(examples: Path, tmp_path: Path) -> None:
 def test_order_of_shear_components(examples: Path, tmp_path: Path) -> None:
     result, start = run(examples / "general_strain.prj"), start_of(examples / "general_strain.prj")
     assert len(set(np.round(result.tensors("epsilon")[-1], 6))) == 6  # no two components are alike
+    compare_replayed(result, start, tmp_path)
+
+
+def test_lines_of_hypofab_delta(examples: Path, tmp_path: Path) -> None:
+    """What `hypofab delta --format ogs` prints is read as the memory of the sample, shear included."""
+    fabric = ["delta", "--N", ".318,.362,.320,.003,-.002,.004", "--R", "1e-4", "--axes", "x,z,-y"]
+    lines, plain = (
+        subprocess.run([PROGRAM, *fabric, *form], check=True, capture_output=True, text=True).stdout
+        for form in (["--format", "ogs"], ["--json"])
+    )
+    project = examples / "pasted.prj"
+    old = r" *<parameter><name>delta</name>.*</parameter>\n"
+    text, count = re.subn(old, lambda _: lines, (examples / "general_strain.prj").read_text())
+    assert count == 1
+    project.write_text(text)
+    result, start = run(project), start_of(project)
+    start.delta = np.array(json.loads(plain)["delta"])
+    assert np.abs(start.delta[3:]).min() > 1e-6
     compare_replayed(result, start, tmp_path)
 
 
