@@ -8,7 +8,8 @@
 !> lambda, in which delta is an elementary function and lambda a smooth, monotonic one; this also removes the
 !> singularity rho^beta_r at delta = 0, where no integrator in lambda keeps its order:
 !>   plane  sinh(x) = cot(theta):        rho = (1 + kappa sech^beta_r(x))^(-1/beta_r), dlambda/dx = R rho
-!>   axis   theta = 0, exp(-x) = 1 - rho^beta_r:                      dlambda/dx = R rho^(1-beta_r)/beta_r
+!>   axis   theta = 0: rho = (1 - exp(-x))^k, k = 4:        dlambda/dx = R drho/dx/(1 - rho^beta_r)
+!> The power k makes rho^beta_r a term of high order at delta = 0, and there and in between a polynomial of x fits well.
 !> In a reversal delta grows along d, and x is lambda itself; so it is where delta stays as it is.
 !>
 !> The derivative of delta at a fixed fraction of the increment with respect to the increment is known in closed form too
@@ -21,11 +22,14 @@ module umat_delta_path
   use umat_tensor, only: ddot, norm, multiplicity
   implicit none
   private
-  public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, speed_at, measures_length, kappa_slope
+  public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, first_guess, measures_length, kappa_slope
   public :: delta_influence
 
   !> Below this v, Eq. (20) cancels more digits than the limit v = 0 leaves out.
   real(wp), parameter :: on_axis = sqrt(epsilon(1.0_wp))
+
+  !> k of the axis.
+  integer, parameter :: axis_power = 4
 
   integer, parameter :: kind_fixed = 0, kind_straight = 1, kind_axis = 2, kind_plane = 3
 
@@ -86,9 +90,9 @@ contains
       path%start = asinh(u / v)
       path%across = normal / v
       path%kappa = (1.0_wp - rho_beta) / v**m%beta_r
-    else if (rho_beta < 1.0_wp) then
+    else if (u < 1.0_wp - negligible) then
       path%kind = kind_axis
-      path%start = -log(1.0_wp - rho_beta)
+      path%start = -log(1.0_wp - min(1.0_wp, u)**(1.0_wp / axis_power))
     else
       path%start_g = intergranular_type(direction, 1.0_wp, 1.0_wp)
     end if
@@ -107,14 +111,15 @@ contains
       point%g = intergranular_direction(m, path%across + x * path%along)
     case (kind_axis)
       point%g = intergranular_type(path%along, 0.0_wp, 0.0_wp)
-      point%cosine = 1.0_wp
-      point%rho_beta = max(0.0_wp, 1.0_wp - exp(-x))
+      point%rho_beta = 0.0_wp
       point%speed = 0.0_wp
-      if (point%rho_beta > 0.0_wp) then
-        log_rho = log(point%rho_beta) / m%beta_r
+      decay = exp(-x)
+      if (decay < 1.0_wp) then
+        log_rho = axis_power * log(1.0_wp - decay)
         point%g%rho = exp(log_rho)
         point%g%rho_chi = exp(m%chi * log_rho)
-        point%speed = m%R * point%g%rho / (point%rho_beta * m%beta_r)
+        point%rho_beta = exp(m%beta_r * log_rho)
+        point%speed = m%R * axis_power * (1.0_wp - decay)**(axis_power - 1) / loss(decay, axis_power * m%beta_r)
       end if
     case (kind_plane)
       decay = exp(-x)
@@ -131,6 +136,25 @@ contains
     end select
   end function path_point
 
+  !> (1 - (1 - q)^p)/q, for 0 <= q <= 1 without cancellation.
+  elemental function loss(q, p) result(s)
+    real(wp), intent(in) :: q, p
+    real(wp) :: s
+    real(wp) :: term
+    integer :: i
+    if (q > 0.05_wp) then
+      s = (1.0_wp - (1.0_wp - q)**p) / q
+    else
+      ! Binomial series.
+      term = p
+      s = p
+      do i = 1, 12
+        term = -term * (p - i) / (i + 1) * q
+        s = s + term
+      end do
+    end if
+  end function loss
+
   !> delta at a point.
   pure function delta_of(m, point) result(delta)
     type(material_type), intent(in) :: m
@@ -139,23 +163,30 @@ contains
     delta = m%R * point%g%rho * point%g%direction
   end function delta_of
 
-  !> d lambda/dx at a parameter x [strain].
-  pure function speed_at(m, path, x) result(speed)
+  !> First guess of the step of the parameter that covers a length of strain [parameter].
+  pure function first_guess(m, path, length) result(h)
     type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
-    real(wp), intent(in) :: x
-    real(wp) :: speed
-    real(wp) :: decay
-    select case (path%kind)
-    case (kind_axis)
-      speed = m%R / m%beta_r * max(0.0_wp, 1.0_wp - exp(-x))**(1.0_wp / m%beta_r - 1.0_wp)
-    case (kind_plane)
-      decay = exp(-x)
-      speed = m%R * (1.0_wp + path%kappa * (2.0_wp * decay / (1.0_wp + decay**2))**m%beta_r)**(-1.0_wp / m%beta_r)
-    case default
-      speed = 1.0_wp
-    end select
-  end function speed_at
+    real(wp), intent(in) :: length
+    real(wp) :: h
+    type(path_point_type) :: point
+    real(wp) :: slope
+    h = length
+    if (measures_length(path)) return
+    h = huge(h)
+    ! Two terms of the series of the length covered about the start, whose speed grows.
+    point = path_point(m, path, path%start)
+    if (path%kind == kind_plane) then
+      slope = point%speed * path%kappa * point%sine_beta * point%rho_beta * point%cosine
+    else
+      ! The axis has its origin at delta = 0, where the speed vanishes; rho grows by less than length/R.
+      h = -log(1.0_wp - min(0.9_wp, path%u + length / m%R)**(1.0_wp / axis_power)) - path%start
+      if (.not. h > 0.0_wp) h = huge(h)
+      if (.not. point%rho_beta > 0.0_wp) return
+      slope = point%speed * (axis_power - 1) * exp(-path%start) / (1.0_wp - exp(-path%start))
+    end if
+    h = min(h, 2.0_wp * length / (point%speed + sqrt(point%speed**2 + 2.0_wp * slope * length)))
+  end function first_guess
 
   !> Is the parameter the length of strain itself?
   pure function measures_length(path) result(yes)
@@ -226,7 +257,9 @@ contains
     select case (path%kind)
     case (kind_axis)
       u = point%g%rho
-      v_over_start = exp(-(x - path%start) / m%beta_r)
+      ! v/v_0 = ((1 - rho^beta_r)/(1 - rho_0^beta_r))^(1/beta_r) for a v that vanishes.
+      v_over_start = (exp(-(x - path%start)) * loss(exp(-x), axis_power * m%beta_r) / &
+                      loss(exp(-path%start), axis_power * m%beta_r))**(1.0_wp / m%beta_r)
     case (kind_plane)
       u = point%g%rho * point%cosine
       v_over_start = point%g%rho * point%sine / path%v

@@ -151,9 +151,9 @@ contains
     call unpack_state(m, stress, statev, state, pore_pressure)
     if (.not. request%prediction) then
       if (request%operator == consistent_operator) then
-        call update_state(m, options_type(first_substep=statev(sv_substep)), state, strain, report, status, stiffness)
+        call update_state(m, options_type(), state, strain, report, status, stiffness)
       else
-        call update_state(m, options_type(first_substep=statev(sv_substep)), state, strain, report, status)
+        call update_state(m, options_type(), state, strain, report, status)
       end if
     end if
     ! There is no elasticity and no damage here: elastic and secant are the stiffness of a reversal of strain.

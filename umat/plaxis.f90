@@ -172,7 +172,7 @@ contains
     integer :: status
 
     strain = strain_of(deps)
-    options = options_type(tolerance=tolerance, first_substep=point%statev(sv_substep))
+    options = options_type(tolerance=tolerance)
     call update_state(point%m, options, point%state, strain, report, status)
     stvar = stvar0
     if (status /= status_ok) then
@@ -210,16 +210,14 @@ contains
     integer, intent(out) :: status
     type(state_type) :: state
     type(report_type) :: report
-    type(options_type) :: options
     real(wp) :: tangent(6, 6), zero(6)
 
-    options%first_substep = point%statev(sv_substep)
     state = point%state
-    call update_state(point%m, options, state, strain_of(deps), report, status, tangent)
+    call update_state(point%m, options_type(), state, strain_of(deps), report, status, tangent)
     if (status /= status_ok) then
       state = point%state
       zero = 0.0_wp
-      call update_state(point%m, options, state, zero, report, status, tangent)
+      call update_state(point%m, options_type(), state, zero, report, status, tangent)
     end if
     if (status == status_ok) call put_stiffness(point%m, tangent, d)
   end subroutine tangent_stiffness

@@ -1,10 +1,10 @@
 !> State -> rate of state: the one function everything else calls.
 module umat_rate
   use umat_kinds, only: wp
-  use umat_intergranular, only: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, delta_rate
+  use umat_intergranular, only: intergranular_type, intergranular_direction, branch_of, turn_of, scale_of, operands, delta_rate
   use umat_material, only: material_type
   use umat_status, only: status_ok, branch_plain, branch_loading, branch_reversal
-  use umat_tensor, only: ddot, norm, trace, multiplicity
+  use umat_tensor, only: norm, trace, multiplicity
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L
   implicit none
   private
@@ -50,16 +50,13 @@ contains
     real(wp), intent(out) :: stress_rate(6)
     integer, intent(out) :: status
     type(hypoplastic_type) :: h
+    real(wp) :: x(6), weight
 
     stress_rate = 0.0_wp
     call hypoplastic_tensors(m, stress, void_ratio, h, status)
     if (status /= status_ok) return
-    if (branch == branch_plain) then
-      stress_rate = apply_L(h, stretching) + norm(stretching) * h%N
-    else
-      stress_rate = scale_of(m, g) * apply_L(h, stretching) + &
-                    ddot(g%direction, stretching) * turn_of(m, h, g, branch)
-    end if
+    call operands(m, g, stretching, branch, x, weight)
+    stress_rate = apply_L(h, x) + weight * h%N
   end subroutine rate_of_stress
 
   !> Rates of stress, delta and void ratio: theory.md Eqs. (11) or (13), (14) and (15). Rates of tensors are corotational.

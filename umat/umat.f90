@@ -67,7 +67,7 @@ contains
     end if
     if (status == status_ok) then
       strain = tensor_from_host(host_strain(:ntens), 0.5_wp)
-      call update_state(m, options_type(first_substep=statev(sv_substep)), state, strain, report, status, tangent)
+      call update_state(m, options_type(), state, strain, report, status, tangent)
       if (status /= status_ok) call stiffness_when_refused(m, state, ddsdde)
     else
       ddsdde = 0.0_c_double

@@ -7,15 +7,15 @@
 !>
 !> Six variations are carried side by side, the variation being the first index, so that the loops over them vectorise.
 module umat_variation
-  use umat_intergranular, only: intergranular_type, scale_of
+  use umat_intergranular, only: intergranular_type, scale_of, share_of, operands
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: status_ok, branch_plain, branch_loading
-  use umat_tensor, only: ddot, norm, deviator, multiplicity
+  use umat_tensor, only: ddot, norm, trace, deviator, multiplicity
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, sensitivity_type, sensitivities, apply_L
   implicit none
   private
-  public :: vary_rate_of_stress
+  public :: vary_rate_of_stress, vary_operands, vary_with_operands, vary_with_state, change_with_state
 
   !> Number of variations: the six components of the stretching, and with each one the changes of state that go with it.
   integer, parameter, public :: n_variations = 6
@@ -41,54 +41,68 @@ contains
     real(wp), intent(out) :: rate(6), variation(n_variations, 6)
     integer, intent(out) :: status
     type(hypoplastic_type) :: h
+    type(sensitivity_type) :: sensitivity
     real(wp) :: x(6), dx(n_variations, 6), weight, dweight(n_variations)
 
     rate = 0.0_wp
     variation = 0.0_wp
     call hypoplastic_tensors(m, stress, void_ratio, h, status)
     if (status /= status_ok) return
-    if (branch == branch_plain) then
-      call plain_operands(d, x, dx, weight, dweight)
-    else
-      call intergranular_operands(m, g, d, branch, d_delta, x, dx, weight, dweight)
-    end if
+    call operands(m, g, d, branch, x, weight)
     rate = apply_L(h, x) + weight * h%N
-    call vary(m, void_ratio, h, x, weight, rate, dx, dweight, d_stress, d_void_ratio, variation)
+    call vary_operands(m, g, d, branch, d_delta, dx, dweight)
+    sensitivity = sensitivities(m, void_ratio, h)
+    variation = vary_with_operands(h, dx, dweight) + &
+                vary_with_state(m, h, sensitivity, x, weight, rate, d_stress, d_void_ratio)
   end subroutine vary_rate_of_stress
 
-  !> X = D, weight = |D|.
-  pure subroutine plain_operands(d, x, dx, weight, dweight)
-    real(wp), intent(in) :: d(6)
-    real(wp), intent(out) :: x(6), dx(n_variations, 6), weight, dweight(n_variations)
-    integer :: i
-    x = d
-    dx = 0.0_wp
-    do i = 1, 6
-      dx(i, i) = 1.0_wp
-    end do
-    weight = norm(d)
-    dweight = 0.0_wp
-    if (weight > 0.0_wp) dweight = multiplicity * d / weight
-  end subroutine plain_operands
-
-  !> X and weight from delta and D on a branch; theory.md Eq. (13).
-  pure subroutine intergranular_operands(m, g, d, branch, d_delta, x, dx, weight, dweight)
+  !> Variation of X and weight with delta and D; theory.md Eqs. (11) and (13).
+  !> @param g, d, branch, d_delta as in vary_rate_of_stress
+  !> @param dx (variation, component), dweight (variation): the derivatives
+  pure subroutine vary_operands(m, g, d, branch, d_delta, dx, dweight)
     type(material_type), intent(in) :: m
     type(intergranular_type), intent(in) :: g
     real(wp), intent(in) :: d(6), d_delta(n_variations, 6)
     integer, intent(in) :: branch
-    real(wp), intent(out) :: x(6), dx(n_variations, 6), weight, dweight(n_variations)
+    real(wp), intent(out) :: dx(n_variations, 6), dweight(n_variations)
+    if (branch == branch_plain) then
+      call vary_plain(d, dx, dweight)
+    else
+      call vary_intergranular(m, g, d, branch, d_delta, dx, dweight)
+    end if
+  end subroutine vary_operands
+
+  !> Of X = D, weight = |D|.
+  pure subroutine vary_plain(d, dx, dweight)
+    real(wp), intent(in) :: d(6)
+    real(wp), intent(out) :: dx(n_variations, 6), dweight(n_variations)
+    real(wp) :: size
+    integer :: i
+    dx = 0.0_wp
+    do i = 1, 6
+      dx(i, i) = 1.0_wp
+    end do
+    size = norm(d)
+    dweight = 0.0_wp
+    if (size > 0.0_wp) dweight = multiplicity * d / size
+  end subroutine vary_plain
+
+  !> Of X and weight on a branch; theory.md Eq. (13).
+  pure subroutine vary_intergranular(m, g, d, branch, d_delta, dx, dweight)
+    type(material_type), intent(in) :: m
+    type(intergranular_type), intent(in) :: g
+    real(wp), intent(in) :: d(6), d_delta(n_variations, 6)
+    integer, intent(in) :: branch
+    real(wp), intent(out) :: dx(n_variations, 6), dweight(n_variations)
     real(wp) :: c, scale, share, factor, loading, per_size, on_delta, on_direction(n_variations)
     real(wp) :: size_change(n_variations), dc(n_variations), dr(n_variations)
     integer :: i
 
     c = ddot(g%direction, d)
     scale = scale_of(m, g)
-    share = merge(1.0_wp - m%m_T, m%m_R - m%m_T, branch == branch_loading)
+    share = share_of(m, branch)
     loading = merge(1.0_wp, 0.0_wp, branch == branch_loading)
     factor = share * g%rho_chi * c
-    x = scale * d + factor * g%direction
-    weight = loading * g%rho_chi * c
 
     dc = multiplicity * g%direction
     dr = 0.0_wp
@@ -111,22 +125,38 @@ contains
       dx(:, i) = dr * d(i) + on_direction * g%direction(i) + on_delta * d_delta(:, i)
       dx(i, i) = dx(i, i) + scale
     end do
-  end subroutine intergranular_operands
+  end subroutine vary_intergranular
 
-  !> L:dX + N dweight + dL:X + weight dN; theory.md Eq. (10).
-  pure subroutine vary(m, void_ratio, h, x, weight, rate, dx, dweight, d_stress, d_void_ratio, variation)
-    type(material_type), intent(in) :: m
-    real(wp), intent(in) :: void_ratio, x(6), weight, rate(6)
+  !> Variation of the rate with X and weight, L:dX + N dweight.
+  pure function vary_with_operands(h, dx, dweight) result(variation)
     type(hypoplastic_type), intent(in) :: h
     real(wp), intent(in) :: dx(n_variations, 6), dweight(n_variations)
-    real(wp), intent(in) :: d_stress(n_variations, 6), d_void_ratio(n_variations)
-    real(wp), intent(out) :: variation(n_variations, 6)
-    type(sensitivity_type) :: s
+    real(wp) :: variation(n_variations, 6)
+    real(wp) :: by_that(n_variations)
+    integer :: i
+    by_that = h%dyad * contracted(dx, h%that)
+    do i = 1, 6
+      variation(:, i) = by_that * h%that(i) + h%identity * dx(:, i) + dweight * h%N(i)
+    end do
+  end function vary_with_operands
+
+  !> Variation of the rate with stress and void ratio, dL:X + weight dN; theory.md Eq. (10).
+  !> @param h, s         L, N and their sensitivities
+  !> @param x, weight    operands of the rate
+  !> @param rate         L:X + weight N
+  !> @param d_stress     (variation, component)
+  !> @param d_void_ratio (variation)
+  !> @return (variation, component)
+  pure function vary_with_state(m, h, s, x, weight, rate, d_stress, d_void_ratio) result(variation)
+    type(material_type), intent(in) :: m
+    type(hypoplastic_type), intent(in) :: h
+    type(sensitivity_type), intent(in) :: s
+    real(wp), intent(in) :: x(6), weight, rate(6), d_stress(n_variations, 6), d_void_ratio(n_variations)
+    real(wp) :: variation(n_variations, 6)
     real(wp), dimension(n_variations) :: d_pressure, by_that, by_rate, by_flow, by_x, d_F
     real(wp) :: flow(6), on_stress, flow_size
     integer :: i
 
-    s = sensitivities(m, void_ratio, h)
     flow = h%that + deviator(h%that)
     flow_size = weight * h%f_s * m%a
     d_pressure = -(d_stress(:, 1) + d_stress(:, 2) + d_stress(:, 3))
@@ -135,15 +165,34 @@ contains
     by_rate = s%log_f_s_pressure * d_pressure + s%log_f_s_e * d_void_ratio + &
               d_that(d_stress, d_pressure, h, s%log_f_s_that)
     d_F = d_that(d_stress, d_pressure, h, s%F_that)
-    by_that = h%dyad * (d_that(d_stress, d_pressure, h, x) + contracted(dx, h%that)) + on_stress * d_pressure
+    by_that = h%dyad * d_that(d_stress, d_pressure, h, x) + on_stress * d_pressure
     by_x = 2.0_wp * h%f_s * h%F * d_F
-    by_flow = flow_size * (h%f_d * d_F + h%F * (s%f_d_pressure * d_pressure + s%f_d_e * d_void_ratio)) + &
-              dweight * (h%f_s * h%f_d * m%a * h%F)
+    by_flow = flow_size * (h%f_d * d_F + h%F * (s%f_d_pressure * d_pressure + s%f_d_e * d_void_ratio))
     do i = 1, 6
       variation(:, i) = by_rate * rate(i) + by_that * h%that(i) + by_x * x(i) + by_flow * flow(i) + &
-                        on_stress * d_stress(:, i) + h%identity * dx(:, i)
+                        on_stress * d_stress(:, i)
     end do
-  end subroutine vary
+  end function vary_with_state
+
+  !> The same for one change of stress and void ratio.
+  !> @param d_stress, d_void_ratio the change
+  !> @return change of the rate
+  pure function change_with_state(m, h, s, x, weight, rate, d_stress, d_void_ratio) result(change)
+    type(material_type), intent(in) :: m
+    type(hypoplastic_type), intent(in) :: h
+    type(sensitivity_type), intent(in) :: s
+    real(wp), intent(in) :: x(6), weight, rate(6), d_stress(6), d_void_ratio
+    real(wp) :: change(6)
+    real(wp) :: d_that(6), d_pressure, d_F, flow_size
+    d_pressure = -trace(d_stress)
+    d_that = -(d_stress + d_pressure * h%that) / h%pressure
+    d_F = ddot(s%F_that, d_that)
+    flow_size = weight * h%f_s * m%a
+    change = (s%log_f_s_pressure * d_pressure + s%log_f_s_e * d_void_ratio + ddot(s%log_f_s_that, d_that)) * rate + &
+             h%dyad * (ddot(d_that, x) * h%that + ddot(h%that, x) * d_that) + 2.0_wp * h%f_s * h%F * d_F * x + &
+             flow_size * (h%f_d * d_F + h%F * (s%f_d_pressure * d_pressure + s%f_d_e * d_void_ratio)) * &
+             (h%that + deviator(h%that)) + 2.0_wp * flow_size * h%f_d * h%F * d_that
+  end function change_with_state
 
   !> dThat:t for each variation.
   pure function d_that(d_stress, d_pressure, h, t) result(s)

@@ -204,7 +204,7 @@ contains
     call swap_shear(increment(:n))
     call unpack_state(m, old_stress(:n), old_statev, state, pore_pressure)
     strain = tensor_from_host(increment(:n), 1.0_wp)
-    call update_state(m, options_type(first_substep=old_statev(sv_substep)), state, strain, report, status)
+    call update_state(m, options_type(), state, strain, report, status)
     if (status /= status_ok) return
 
     pore_pressure = pore_pressure - m%K_w * trace(strain)

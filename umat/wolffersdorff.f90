@@ -39,6 +39,9 @@ module umat_wolffersdorff
   !> nothing, exp(-10) or less.
   real(wp), parameter :: smallest_void_ratio = 1.0e-3_wp, largest_void_ratio = 100.0_wp, largest_pressure = 10.0_wp
 
+  !> Below this size T*hat is rounding, and its direction means nothing.
+  real(wp), parameter :: isotropic = 1.0e3_wp * epsilon(1.0_wp)
+
 contains
 
   !> Is a state inside the model's domain: all principal values of T - p_t 1 compressive, void ratio and pressure
@@ -148,8 +151,8 @@ contains
     real(wp) :: square, size, product, base, direction(6), product_slope(6)
     slope = 0.0_wp
     square = ddot(deviatoric, deviatoric)
-    if (square <= sqrt(tiny(square))) return
     size = sqrt(square)
+    if (size <= isotropic) return
     direction = deviatoric / size
     product = -6.0_wp * trace_of_cube(direction) * size
     base = 0.375_wp * square + (2.0_wp - 3.0_wp * square) / (2.0_wp + product)

@@ -59,7 +59,7 @@ static void test_three_dimensions(void **unused) {
     }
     assert_true(fabs(statev[6] - state.void_ratio) < 1e-12);
     assert_true(statev[8] == -(stress[0] + stress[1] + stress[2]) / 3.0);
-    assert_true(statev[9] >= 7.0 && statev[12] > 0.0);
+    assert_true(statev[9] >= 3.0 && statev[12] > 0.0);
     assert_true(fabs(statev[10] - hypofab_friction_angle(stress)) < 1e-9);
     if (material.m_R > 0.5) assert_true(fabs(statev[11] - tensor_norm(state.delta) / material.R) < 1e-12);
   }

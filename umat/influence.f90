@@ -1,0 +1,162 @@
+!> Influence of the strain increment on the stress along a path: the variational equations of the integration, from which
+!> the consistent tangent follows.
+!>
+!> The increment is L (d + eta); carried is the derivative of the stress with respect to eta at a fixed fraction of the
+!> increment. theory.md, section 4.
+module umat_influence
+  use umat_collocation, only: nodes_type, tail
+  use umat_delta_path, only: kappa_slope, delta_influence
+  use umat_kinds, only: wp
+  use umat_leg, only: leg_type
+  use umat_lobatto, only: lobatto_type, most_nodes
+  use umat_material, only: material_type
+  use umat_status, only: branch_plain
+  use umat_tensor, only: unit_tensor, multiplicity
+  use umat_variation, only: vary_operands, vary_with_operands, vary_with_state
+  use umat_wolffersdorff, only: hypoplastic_type, sensitivity_type, sensitivities, apply_L
+  implicit none
+  private
+  public :: influence_type, influence_step
+
+  !> What is carried along a path.
+  type :: influence_type
+    real(wp) :: on_stress(6, 6) = 0.0_wp !< (component of eta, component of stress) [stress]
+    real(wp) :: integral = 0.0_wp !< of kappa_slope over the path's parameter, from the start of the branch
+  end type influence_type
+
+  !> Passes before the step is given up as too long.
+  integer, parameter :: most_passes = 20
+
+contains
+
+  !> Carry the influence over a step whose stress is known.
+  !> @param x, h      start of the step and its size in the path's parameter
+  !> @param before    length of strain of the leg before the step [strain]
+  !> @param end       where in the step the influence is wanted: 1, or near it
+  !> @param nodes     of the step
+  !> @param tensors   L and N at the nodes
+  !> @param influence at the start of the step, then at its end
+  !> @param error     relative to the influence at the end of the leg
+  pure subroutine influence_step(m, rule, leg, x, h, before, end, nodes, tensors, influence, error)
+    type(material_type), intent(in) :: m
+    type(lobatto_type), intent(in) :: rule
+    type(leg_type), intent(in) :: leg
+    real(wp), intent(in) :: x, h, before, end
+    type(nodes_type), intent(in) :: nodes
+    type(hypoplastic_type), intent(in) :: tensors(0:most_nodes)
+    type(influence_type), intent(inout) :: influence
+    real(wp), intent(out) :: error
+    type(sensitivity_type) :: s(0:most_nodes)
+    real(wp), dimension(6, 6, 0:most_nodes) :: direct, total, y
+    real(wp) :: integral(0:most_nodes), slope(0:most_nodes), x_h(6, 0:most_nodes), weight_h(0:most_nodes)
+    real(wp) :: rate(6, 0:most_nodes), d_void_ratio(6, 0:most_nodes), old(6, 6), done(0:most_nodes)
+    real(wp) :: change, previous, at_end, left
+    integer :: k, pass, n
+
+    n = rule%n
+    do k = 0, n
+      slope(k) = h * kappa_slope(m, nodes%point(k))
+    end do
+    integral(0) = influence%integral
+    do k = 1, n
+      integral(k) = influence%integral + dot_product(rule%a(:n, k), slope(:n))
+    end do
+    done(:n) = leg%turn + before + nodes%length(:n)
+    left = max(0.0_wp, leg%length - before - nodes%length(n))
+    do k = 0, n
+      s(k) = sensitivities(m, nodes%void_ratio(k), tensors(k))
+      x_h(:, k) = nodes%strain(k) * nodes%x(:, k)
+      weight_h(k) = nodes%strain(k) * nodes%weight(k)
+      rate(:, k) = apply_L(tensors(k), x_h(:, k)) + weight_h(k) * tensors(k)%N
+      d_void_ratio(:, k) = (1.0_wp + nodes%void_ratio(k)) * done(k) * unit_tensor
+      direct(:, :, k) = nodes%strain(k) * direct_influence(k)
+      y(:, :, k) = influence%on_stress
+    end do
+    total(:, :, 0) = direct(:, :, 0) + with_state(0)
+    error = huge(error)
+    previous = 0.0_wp
+    do pass = 1, most_passes
+      do k = 1, n
+        total(:, :, k) = direct(:, :, k) + with_state(k)
+      end do
+      old = y(:, :, n)
+      call integrate_influence(rule, influence%on_stress, total, y)
+      change = size_of(y(:, :, n) - old)
+      at_end = size_of(y(:, :, n)) + left / nodes%strain(n) * size_of(total(:, :, n))
+      if (pass > 1 .and. change * min(1.0_wp, change / previous) <= 0.3_wp * leg%tolerance * at_end) exit
+      if (pass == most_passes) return
+      previous = change
+    end do
+    error = tail([size_of(mode(0)), size_of(mode(1)), size_of(mode(2))], n, 0.0_wp) / at_end
+    influence%on_stress = y(:, :, n) + (end - 1.0_wp) * total(:, :, n)
+    influence%integral = integral(n) + (end - 1.0_wp) * slope(n)
+
+  contains
+
+    !> Change of the rate at node k through delta and D.
+    pure function direct_influence(k) result(variation)
+      integer, intent(in) :: k
+      real(wp) :: variation(6, 6), d_delta(6, 6), dx(6, 6), dweight(6)
+      d_delta = 0.0_wp
+      if (leg%branch /= branch_plain) &
+        d_delta = delta_influence(m, leg%path, x + rule%c(k) * h, nodes%point(k), done(k), integral(k))
+      call vary_operands(m, nodes%point(k)%g, leg%direction, leg%branch, d_delta, dx, dweight)
+      variation = vary_with_operands(tensors(k), dx, dweight)
+    end function direct_influence
+
+    !> Change of the rate at node k, per unit of the step, through stress and void ratio.
+    pure function with_state(k) result(variation)
+      integer, intent(in) :: k
+      real(wp) :: variation(6, 6)
+      variation = vary_with_state(m, tensors(k), s(k), x_h(:, k), weight_h(k), rate(:, k), y(:, :, k), d_void_ratio(:, k))
+    end function with_state
+
+    !> Coefficient of the i-th mode from the highest.
+    pure function mode(i) result(coefficient)
+      integer, intent(in) :: i
+      real(wp) :: coefficient(6, 6)
+      integer :: j
+      coefficient = 0.0_wp
+      do j = 0, n
+        coefficient = coefficient + rule%mode(j, i) * total(:, :, j)
+      end do
+    end function mode
+
+  end subroutine influence_step
+
+  !> Integrals from the start of the step to its nodes, added to the influence at the start. As vectors: this is where much
+  !> of the time goes.
+  pure subroutine integrate_influence(rule, start, total, y)
+    type(lobatto_type), intent(in) :: rule
+    real(wp), intent(in) :: start(36), total(36, 0:most_nodes)
+    real(wp), intent(inout) :: y(36, 0:most_nodes)
+    integer :: i, j
+    do j = 1, rule%n
+      associate (a => rule%a(:, j))
+        if (rule%n == 2) then
+          do i = 1, 36
+            y(i, j) = start(i) + (a(1) * total(i, 0) + a(2) * total(i, 1) + a(3) * total(i, 2))
+          end do
+        else
+          do i = 1, 36
+            y(i, j) = start(i) + ((a(1) * total(i, 0) + a(2) * total(i, 1)) + &
+                                  (a(3) * total(i, 2) + a(4) * total(i, 3) + a(5) * total(i, 4)))
+          end do
+        end if
+      end associate
+    end do
+  end subroutine integrate_influence
+
+  !> Size of an influence: a fourth-order tensor's norm, so that it does not depend on the axes.
+  pure function size_of(influence) result(s)
+    real(wp), intent(in) :: influence(6, 6)
+    real(wp) :: s
+    integer :: i
+    s = 0.0_wp
+    do i = 1, 6
+      s = s + multiplicity(i) * sum(influence(:, i)**2 / multiplicity)
+    end do
+    s = sqrt(s)
+  end function size_of
+
+end module umat_influence

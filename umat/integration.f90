@@ -1,0 +1,118 @@
+!> Adaptive integration of the stress along one branch of the intergranular strain, at a constant direction of strain.
+module umat_integration
+  use umat_delta_path, only: delta_path, path_point, delta_of, first_guess
+  use umat_influence, only: influence_type
+  use umat_kinds, only: wp
+  use umat_leg, only: leg_type, void_ratio_at
+  use umat_lobatto, only: rules, rule_short, rule_long
+  use umat_material, only: material_type
+  use umat_rate, only: state_type
+  use umat_status, only: status_ok, status_out_of_domain, status_step_limit, branch_plain
+  use umat_collocation, only: start_of_step
+  use umat_step, only: step_type, reach, try
+  use umat_tensor, only: norm
+  implicit none
+  private
+  public :: options_type, report_type, integrate
+
+  !> Options of an update.
+  type :: options_type
+    real(wp) :: tolerance = 1.0e-6_wp !< relative error of stress, delta (of R) and void ratio
+    integer :: max_evaluations = 20000 !< bound on rate evaluations
+  end type options_type
+
+  !> What an update did.
+  type :: report_type
+    integer :: evaluations = 0 !< rate evaluations
+    integer :: branch = branch_plain !< branch at the end
+    real(wp) :: substep = 0.0_wp !< |strain| that the error control suggests for the next step; 0: none was made
+  end type report_type
+
+  !> A stress that falls to this part of its start on a straight path is on its way to zero, which is outside the domain.
+  real(wp), parameter :: vanishing = 1.0e-8_wp
+  !> A smaller fraction of the increment than this is not tried.
+  real(wp), parameter :: smallest_step = 1.0e-10_wp
+  !> First step tried: this part of R, in which delta turns. Where the stress changes too much the prediction shortens it.
+  real(wp), parameter :: step_of_R = 1.0_wp
+  !> Up to this part of R, or this strain of the plain model, the short rule is tried first.
+  real(wp), parameter :: short_of_R = 0.15_wp, short_plain = 1.0e-5_wp
+
+  !> A step that is meant to cover this part of what is left covers it all; above the most that is left after a rejection (step.f90).
+  real(wp), parameter :: nearly = 0.95_wp
+
+contains
+
+  !> Integrate over a length of strain on one branch.
+  !> @param branch       the branch to stay on
+  !> @param direction    unit strain direction
+  !> @param turn         length of strain already done in reversal
+  !> @param length       length of the strain path
+  !> @param with_tangent carry the influence of the increment on stress too?
+  !> @param state        in: start, out: end; undefined on failure
+  !> @param influence    in: start, out: end
+  !> @param report       evaluations are added, the suggested substep is updated
+  pure subroutine integrate(m, options, branch, direction, turn, length, with_tangent, state, influence, report, status)
+    type(material_type), intent(in) :: m
+    type(options_type), intent(in) :: options
+    integer, intent(in) :: branch
+    real(wp), intent(in) :: direction(6), turn, length
+    logical, intent(in) :: with_tangent
+    type(state_type), intent(inout) :: state
+    type(influence_type), intent(inout) :: influence
+    type(report_type), intent(inout) :: report
+    integer, intent(out) :: status
+    type(leg_type) :: leg
+    type(step_type) :: step
+    real(wp) :: wanted !< length of strain that the next step should cover
+    real(wp) :: growth, covered
+    logical :: accepted
+
+    status = status_ok
+    if (.not. length > 0.0_wp) return
+    leg%path = delta_path(m, state%delta, direction, branch, turn)
+    leg%branch = branch
+    leg%direction = direction
+    leg%turn = turn
+    leg%length = length
+    leg%void_ratio = state%void_ratio
+    leg%tolerance = options%tolerance
+    leg%with_tangent = with_tangent
+
+    wanted = length
+    if (m%intergranular) wanted = min(length, step_of_R * m%R)
+    step%rule = merge(rule_short, rule_long, wanted <= merge(short_of_R * m%R, short_plain, m%intergranular))
+    step%x = leg%path%start
+    step%h = first_guess(m, leg%path, wanted)
+    step%obstacle = status_step_limit
+    step%influence = influence
+    step%influence%integral = 0.0_wp
+    call start_of_step(m, state%stress, state%void_ratio, step%start, status)
+    step%evaluations = 1
+    do while (status == status_ok)
+      call reach(m, leg, wanted >= nearly * (length - step%done), step)
+      covered = step%nodes%length(rules(step%rule)%n)
+      call try(m, leg, step, accepted, growth)
+      if (accepted) then
+        if (step%last) exit
+        step%x = step%x + step%h
+        step%done = step%done + covered
+        if (norm(step%stress) < vanishing * norm(state%stress)) status = status_out_of_domain
+        if (status == status_ok) call start_of_step(m, step%stress, void_ratio_at(leg, step%done), step%start, status)
+        step%evaluations = step%evaluations + 1
+      else if (growth < 1.0_wp .and. covered < smallest_step * length) then
+        status = step%obstacle
+      end if
+      if (report%evaluations + step%evaluations > options%max_evaluations) status = step%obstacle
+      wanted = growth * covered
+      step%h = growth * step%h
+    end do
+    report%evaluations = report%evaluations + step%evaluations
+    if (status /= status_ok) return
+    report%substep = growth * covered
+    if (m%intergranular) state%delta = delta_of(m, path_point(m, leg%path, step%x + step%end * step%h))
+    state%void_ratio = void_ratio_at(leg, length)
+    state%stress = step%stress
+    influence = step%influence
+  end subroutine integrate
+
+end module umat_integration

@@ -1,0 +1,247 @@
+!> One step of a leg: where it ends, whether its errors are small enough, and what they ask of the next.
+module umat_step
+  use umat_collocation, only: nodes_type, place_nodes, start_type, prediction, sweep, missing_of, tail
+  use umat_delta_path, only: measures_length
+  use umat_influence, only: influence_type, influence_step
+  use umat_kinds, only: wp
+  use umat_leg, only: leg_type
+  use umat_lobatto, only: rules, rule_short, rule_long, most_nodes
+  use umat_material, only: material_type
+  use umat_status, only: status_ok, status_out_of_domain
+  use umat_tensor, only: norm
+  use umat_wolffersdorff, only: hypoplastic_type, in_domain
+  implicit none
+  private
+  public :: step_type, reach, try
+
+  !> A step and where it stands.
+  type :: step_type
+    integer :: rule !< which of the rules
+    real(wp) :: x, h !< start and size, in the path's parameter
+    real(wp) :: done = 0.0_wp !< length of strain of the leg before the step
+    logical :: last = .false. !< does the leg end with it?
+    real(wp) :: end = 1.0_wp !< where in the step the leg ends
+    type(start_type) :: start
+    type(nodes_type) :: nodes
+    real(wp) :: stress(6) !< at the end of an accepted step
+    type(influence_type) :: influence !< at the end of an accepted step, at the start of any other
+    integer :: evaluations = 0 !< rate evaluations so far
+    integer :: obstacle !< why the end of the leg cannot be reached, if it cannot: a status
+  end type step_type
+
+  !> Part of the tolerance that one step may use: errors of many steps and of later increments add up.
+  real(wp), parameter :: share = 0.2_wp
+  !> Sweeps tried before the step is shortened, and the number that a step of good size needs.
+  integer, parameter :: most_sweeps = 5, good_sweeps = 2
+  !> A correction of this part of the stress is rounding: nothing can be told from how it compares with the one before.
+  real(wp), parameter :: rounding = 1.0e2_wp * epsilon(1.0_wp)
+  !> Where a last step ends may be off the last node by this part of the root of the tolerance: an Euler step makes up for it,
+  !> whose error is of second order.
+  real(wp), parameter :: close_enough = 0.1_wp
+
+contains
+
+  !> Place the nodes of a step that ends where the leg ends if it reaches so far.
+  !> @param aimed is the step meant to reach the end?
+  pure subroutine reach(m, leg, aimed, step)
+    type(material_type), intent(in) :: m
+    type(leg_type), intent(in) :: leg
+    logical, intent(in) :: aimed
+    type(step_type), intent(inout) :: step
+    real(wp) :: ahead, covered
+    integer :: i
+    integer, parameter :: most_trials = 10
+    ahead = leg%length - step%done
+    step%end = 1.0_wp
+    if (measures_length(leg%path)) then
+      step%last = step%h >= ahead
+      step%h = min(step%h, ahead)
+      call place(m, leg, step)
+      return
+    end if
+    step%last = aimed
+    do i = 1, most_trials
+      call place(m, leg, step)
+      associate (n => rules(step%rule)%n)
+        covered = step%nodes%length(n)
+        step%last = step%last .or. covered > ahead
+        if (.not. step%last) return
+        if (abs(ahead - covered) <= close_enough * sqrt(share * leg%tolerance) * ahead) then
+          step%end = 1.0_wp + (ahead - covered) / step%nodes%strain(n)
+          return
+        end if
+        step%h = step%h * place_of(rules(step%rule)%c(:n), step%nodes%length(:n), ahead)
+      end associate
+    end do
+    ! No smooth path: go on with a step that surely ends before the leg does, for the speed grows along a path.
+    step%last = .false.
+    step%h = step%h * 0.5_wp * min(1.0_wp, ahead / covered)
+    call place(m, leg, step)
+  end subroutine reach
+
+  !> Place the nodes.
+  pure subroutine place(m, leg, step)
+    type(material_type), intent(in) :: m
+    type(leg_type), intent(in) :: leg
+    type(step_type), intent(inout) :: step
+    call place_nodes(m, rules(step%rule), leg%path, leg%direction, leg%branch, step%x, step%h, step%start%void_ratio, &
+                     step%nodes)
+  end subroutine place
+
+  !> Where in the step a length of strain is reached: inverse interpolation between the nodes, by Neville's scheme.
+  pure function place_of(c, lengths, length) result(place)
+    real(wp), intent(in) :: c(0:), lengths(0:), length
+    real(wp) :: place
+    real(wp) :: table(0:most_nodes)
+    integer :: n, i, k
+    n = ubound(c, 1)
+    table(:n) = c
+    do i = 1, n
+      do k = 0, n - i
+        table(k) = ((length - lengths(k + i)) * table(k) - (length - lengths(k)) * table(k + 1)) / &
+                   (lengths(k) - lengths(k + i))
+      end do
+    end do
+    place = table(0)
+    if (.not. (place > 0.1_wp .and. place < 2.0_wp)) place = max(0.1_wp, min(2.0_wp, length / lengths(n)))
+  end function place_of
+
+  !> Try a step whose nodes are placed.
+  !> @param step     stress and influence at its end, when accepted; a rule that is too short is exchanged
+  !> @param accepted are the errors small enough?
+  !> @param growth   change of the step that the errors ask for; below 1 when not accepted, or 1 with another rule
+  pure subroutine try(m, leg, step, accepted, growth)
+    type(material_type), intent(in) :: m
+    type(leg_type), intent(in) :: leg
+    type(step_type), intent(inout) :: step
+    logical, intent(out) :: accepted
+    real(wp), intent(out) :: growth
+    type(hypoplastic_type) :: tensors(0:most_nodes)
+    type(influence_type) :: influence
+    real(wp) :: frozen(6, 0:most_nodes), f(6, 0:most_nodes), u(6, 0:most_nodes)
+    real(wp) :: tolerance, scale, theta, missing, left, error
+    integer :: n
+
+    accepted = .false.
+    n = rules(step%rule)%n
+    tolerance = share * leg%tolerance
+    scale = norm(step%start%stress)
+    call prediction(m, rules(step%rule), step%nodes, step%start, frozen, f, u)
+    ! A first look that costs no evaluation of the rate.
+    theta = norm(u(:, n)) / scale
+    missing = missing_of(rules(step%rule), f, theta) / scale
+    if (m%intergranular) missing = max(missing, missing_length(leg, step) / m%R)
+    if (missing > tolerance .and. step%rule == rule_short) then
+      step%rule = rule_long
+      growth = 1.0_wp
+      return
+    end if
+    growth = growth_after(missing, theta, tolerance, n)
+    if (growth < 0.7_wp) return
+
+    call sweeps(m, leg, step, frozen, tensors, f, u, left, growth)
+    if (growth < 1.0_wp) return
+    theta = norm(u(:, n)) / scale
+    scale = max(scale, norm(step%start%stress + u(:, n)))
+    missing = missing_of(rules(step%rule), f, theta) / scale
+    if (m%intergranular) missing = max(missing, missing_length(leg, step) / m%R)
+    error = missing + left / scale
+    growth = growth_after(missing, theta, tolerance, n)
+    if (error > tolerance) then
+      growth = merge(1.0_wp, min(growth, 0.9_wp), step%rule == rule_short)
+      step%rule = rule_long
+      return
+    end if
+    step%stress = step%start%stress + u(:, n) + (step%end - 1.0_wp) * f(:, n)
+    if (.not. in_domain(m, step%stress, step%nodes%void_ratio(n))) then
+      step%obstacle = status_out_of_domain
+      growth = 0.25_wp
+      return
+    end if
+    accepted = .true.
+    if (.not. leg%with_tangent) return
+    tensors(0) = step%start%h
+    influence = step%influence
+    call influence_step(m, rules(step%rule), leg, step%x, step%h, step%done, step%end, step%nodes, tensors, &
+                        influence, error)
+    accepted = error <= leg%tolerance
+    if (accepted) step%influence = influence
+    if (.not. accepted) growth = min(0.9_wp, growth, growth_of(error / leg%tolerance, n + 3))
+  end subroutine try
+
+  !> Sweeps until the corrections are small enough.
+  !> @param left   what further sweeps would still change, by estimate [stress]
+  !> @param growth below 1 if the step must be shortened
+  pure subroutine sweeps(m, leg, step, frozen, tensors, f, u, left, growth)
+    type(material_type), intent(in) :: m
+    type(leg_type), intent(in) :: leg
+    type(step_type), intent(inout) :: step
+    real(wp), intent(in) :: frozen(6, 0:most_nodes)
+    type(hypoplastic_type), intent(inout) :: tensors(0:most_nodes)
+    real(wp), intent(inout) :: f(6, 0:most_nodes), u(6, 0:most_nodes)
+    real(wp), intent(out) :: left, growth
+    real(wp) :: scale, change, previous, ratio
+    integer :: i, n, status
+    n = rules(step%rule)%n
+    scale = norm(step%start%stress)
+    previous = huge(previous)
+    left = previous
+    do i = 1, most_sweeps
+      growth = 0.25_wp
+      call sweep(m, rules(step%rule), step%nodes, step%start, frozen, tensors, f, u, change, status)
+      step%evaluations = step%evaluations + n
+      if (status /= status_ok) then
+        step%obstacle = status
+        return
+      end if
+      growth = 0.4_wp
+      ! The prediction is off by terms of third order in the change of stress, and so a sweep gains twice that, relatively.
+      ratio = max(2.0_wp * change / max(norm(u(:, n)), tiny(ratio)), change / previous)
+      left = change * min(1.0_wp, ratio)
+      if (ratio > 0.5_wp .and. left > rounding * scale) return
+      if (left <= 0.5_wp * share * leg%tolerance * scale) then
+        growth = 1.0_wp
+        ! The tangent is taken at the stress before the last correction.
+        if (.not. leg%with_tangent .or. change <= leg%tolerance * scale) return
+        growth = 0.4_wp
+      end if
+      previous = change
+    end do
+  end subroutine sweeps
+
+  !> Size of what the nodes leave out of the length of strain.
+  pure function missing_length(leg, step) result(missing)
+    type(leg_type), intent(in) :: leg
+    type(step_type), intent(in) :: step
+    real(wp) :: missing
+    missing = 0.0_wp
+    if (measures_length(leg%path)) return
+    associate (n => rules(step%rule)%n, mode => rules(step%rule)%mode, strain => step%nodes%strain)
+      missing = tail([abs(dot_product(mode(:n, 0), strain(:n))), abs(dot_product(mode(:n, 1), strain(:n))), &
+                      abs(dot_product(mode(:n, 2), strain(:n)))], n, 0.0_wp)
+    end associate
+  end function missing_length
+
+  !> Change of the step that the nodes and the change of stress ask for.
+  !> @param missing what the nodes leave out, relative
+  !> @param theta   change of stress, relative
+  pure function growth_after(missing, theta, tolerance, n) result(growth)
+    real(wp), intent(in) :: missing, theta, tolerance
+    integer, intent(in) :: n
+    real(wp) :: growth
+    integer, parameter :: order = 2 * good_sweeps + 3
+    ! Prediction: theta^3/2 is left; each sweep gains theta^2.
+    growth = min(growth_of(missing / tolerance, n + 3), growth_of(0.5_wp * theta**order / tolerance, order))
+  end function growth_after
+
+  !> Change of the step after an error (1: just acceptable) that grows with a power of the step.
+  pure function growth_of(error, order) result(growth)
+    real(wp), intent(in) :: error
+    integer, intent(in) :: order
+    real(wp) :: growth
+    real(wp), parameter :: least = 0.1_wp, most = 5.0_wp, safety = 0.9_wp
+    growth = most
+    if (error > (safety / most)**order) growth = max(least, safety * error**(-1.0_wp / order))
+  end function growth_of
+
+end module umat_step
