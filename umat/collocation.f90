@@ -13,7 +13,7 @@ module umat_collocation
   use umat_material, only: material_type
   use umat_status, only: status_ok
   use umat_tensor, only: trace, norm
-  use umat_variation, only: change_with_state
+  use umat_variation, only: linearise
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, sensitivity_type, sensitivities, apply_L
   implicit none
   private
@@ -79,42 +79,48 @@ contains
   end subroutine place_nodes
 
   !> Predict the change of stress at the nodes, with the rate linear in stress and void ratio about the start of the step.
-  !> @param f rates at the nodes per unit of the step, by the linear model
-  !> @param u change of stress at the nodes
-  !> @param frozen the same rates with the L and N of the start
-  pure subroutine prediction(m, rule, nodes, start, frozen, f, u)
+  !> @param by_stress matrices of the linear model at the nodes: change of the rate per unit of the step with the stress
+  !> @param f         rates at the nodes per unit of the step, by the linear model
+  !> @param u         change of stress at the nodes
+  pure subroutine prediction(m, rule, nodes, start, by_stress, f, u)
     type(material_type), intent(in) :: m
     type(lobatto_type), intent(in) :: rule
     type(nodes_type), intent(in) :: nodes
     type(start_type), intent(in) :: start
-    real(wp), intent(out) :: frozen(6, 0:most_nodes), f(6, 0:most_nodes), u(6, 0:most_nodes)
+    real(wp), intent(out) :: by_stress(6, 6, most_nodes), f(6, 0:most_nodes), u(6, 0:most_nodes)
+    real(wp) :: frozen(6, 0:most_nodes), by_void_ratio(6), x(6), weight
     integer :: k
     ! Each pass gains a factor of theta, the relative change of stress in the step. The linear model itself is off by terms
     ! of order theta^3, and so is the first pass.
     do k = 0, rule%n
-      frozen(:, k) = nodes%strain(k) * (apply_L(start%h, nodes%x(:, k)) + nodes%weight(k) * start%h%N)
+      x = nodes%strain(k) * nodes%x(:, k)
+      weight = nodes%strain(k) * nodes%weight(k)
+      frozen(:, k) = apply_L(start%h, x) + weight * start%h%N
+      f(:, k) = frozen(:, k)
+      if (k == 0) cycle
+      call linearise(m, start%h, start%s, x, weight, frozen(:, k), by_stress(:, :, k), by_void_ratio)
+      frozen(:, k) = frozen(:, k) + (nodes%void_ratio(k) - start%void_ratio) * by_void_ratio
     end do
-    f(:, :rule%n) = frozen(:, :rule%n)
     call integrate_to_nodes(rule, f, u)
     do k = 1, rule%n
-      f(:, k) = frozen(:, k) + linear(m, start, nodes, k, frozen(:, k), u(:, k), nodes%void_ratio(k) - start%void_ratio)
+      f(:, k) = frozen(:, k) + on_change(by_stress(:, :, k), u(:, k))
     end do
     call integrate_to_nodes(rule, f, u)
   end subroutine prediction
 
   !> Evaluate the rate at the nodes and correct the change of stress.
-  !> @param frozen from prediction
+  !> @param by_stress from prediction
   !> @param h      L and N at the nodes behind the start, at the stress before the correction
   !> @param f      rates at the nodes per unit of the step, corrected by the linear model
   !> @param u      change of stress at the nodes
   !> @param change size of the correction at the end of the step [stress]
   !> @param status status_ok or status_out_of_domain
-  pure subroutine sweep(m, rule, nodes, start, frozen, h, f, u, change, status)
+  pure subroutine sweep(m, rule, nodes, start, by_stress, h, f, u, change, status)
     type(material_type), intent(in) :: m
     type(lobatto_type), intent(in) :: rule
     type(nodes_type), intent(in) :: nodes
     type(start_type), intent(in) :: start
-    real(wp), intent(in) :: frozen(6, 0:most_nodes)
+    real(wp), intent(in) :: by_stress(6, 6, most_nodes)
     type(hypoplastic_type), intent(inout) :: h(0:most_nodes)
     real(wp), intent(inout) :: f(6, 0:most_nodes), u(6, 0:most_nodes)
     real(wp), intent(out) :: change
@@ -131,23 +137,22 @@ contains
     f(:, 1:rule%n) = evaluated(:, 1:rule%n)
     call integrate_to_nodes(rule, f, u)
     do k = 1, rule%n
-      f(:, k) = evaluated(:, k) + linear(m, start, nodes, k, frozen(:, k), u(:, k) - before(:, k), 0.0_wp)
+      f(:, k) = evaluated(:, k) + on_change(by_stress(:, :, k), u(:, k) - before(:, k))
     end do
     call integrate_to_nodes(rule, f, u)
     change = norm(u(:, rule%n) - before(:, rule%n))
   end subroutine sweep
 
-  !> Change of the rate at node k, per unit of the step, with stress and void ratio about the start of the step.
-  pure function linear(m, start, nodes, k, frozen, d_stress, d_void_ratio) result(change)
-    type(material_type), intent(in) :: m
-    type(start_type), intent(in) :: start
-    type(nodes_type), intent(in) :: nodes
-    integer, intent(in) :: k
-    real(wp), intent(in) :: frozen(6), d_stress(6), d_void_ratio
-    real(wp) :: change(6)
-    change = change_with_state(m, start%h, start%s, nodes%strain(k) * nodes%x(:, k), nodes%strain(k) * nodes%weight(k), &
-                               frozen, d_stress, d_void_ratio)
-  end function linear
+  !> A matrix on a change of stress.
+  pure function on_change(matrix, u) result(answer)
+    real(wp), intent(in) :: matrix(6, 6), u(6)
+    real(wp) :: answer(6)
+    integer :: j
+    answer = matrix(:, 1) * u(1)
+    do j = 2, 6
+      answer = answer + matrix(:, j) * u(j)
+    end do
+  end function on_change
 
   !> Integrals from the start of the step to its nodes. A subroutine with fixed shapes: nothing is allocated.
   pure subroutine integrate_to_nodes(rule, f, u)
@@ -196,6 +201,8 @@ contains
     real(wp) :: ratio
     ratio = 1.0_wp
     if (modes(0) < modes(2)) ratio = sqrt(modes(0) / modes(2))
+    ! Three nodes: mode 0 is the mean, which says little about how the others fall.
+    if (n == 2 .and. modes(0) > ratio * modes(1)) ratio = min(1.0_wp, modes(0) / max(modes(1), tiny(ratio)))
     missing = modes(0) * ratio * max(ratio**(n / 2), coupling)
   end function tail
 

@@ -4,16 +4,16 @@
 !> The increment is L (d + eta); carried is the derivative of the stress with respect to eta at a fixed fraction of the
 !> increment. theory.md, section 4.
 module umat_influence
-  use umat_collocation, only: nodes_type, tail
+  use umat_collocation, only: nodes_type
   use umat_delta_path, only: kappa_slope, delta_influence
   use umat_kinds, only: wp
   use umat_leg, only: leg_type
   use umat_lobatto, only: lobatto_type, most_nodes
   use umat_material, only: material_type
   use umat_status, only: branch_plain
-  use umat_tensor, only: unit_tensor, multiplicity
-  use umat_variation, only: vary_operands, vary_with_operands, vary_with_state
-  use umat_wolffersdorff, only: hypoplastic_type, sensitivity_type, sensitivities, apply_L
+  use umat_tensor, only: multiplicity
+  use umat_variation, only: vary_operands, vary_with_operands, linearise, on_each
+  use umat_wolffersdorff, only: hypoplastic_type, sensitivities, apply_L
   implicit none
   private
   public :: influence_type, influence_step
@@ -26,6 +26,8 @@ module umat_influence
 
   !> Passes before the step is given up as too long.
   integer, parameter :: most_passes = 20
+  !> Parts of the tolerance for what further passes would change, and for what the nodes leave out.
+  real(wp), parameter :: enough = 0.05_wp, share = 0.1_wp
 
 contains
 
@@ -46,12 +48,10 @@ contains
     type(hypoplastic_type), intent(in) :: tensors(0:most_nodes)
     type(influence_type), intent(inout) :: influence
     real(wp), intent(out) :: error
-    type(sensitivity_type) :: s(0:most_nodes)
-    real(wp), dimension(6, 6, 0:most_nodes) :: direct, total, y
-    real(wp) :: integral(0:most_nodes), slope(0:most_nodes), x_h(6, 0:most_nodes), weight_h(0:most_nodes)
-    real(wp) :: rate(6, 0:most_nodes), d_void_ratio(6, 0:most_nodes), old(6, 6), done(0:most_nodes)
-    real(wp) :: change, previous, at_end, left
-    integer :: k, pass, n
+    real(wp), dimension(6, 6, 0:most_nodes) :: direct, total, y, by_stress
+    real(wp) :: integral(0:most_nodes), slope(0:most_nodes), done(0:most_nodes), old(6, 6)
+    real(wp) :: x_h(6), weight_h, rate(6), by_void_ratio(6), change, previous, at_end, left
+    integer :: k, i, pass, n
 
     n = rule%n
     do k = 0, n
@@ -64,30 +64,34 @@ contains
     done(:n) = leg%turn + before + nodes%length(:n)
     left = max(0.0_wp, leg%length - before - nodes%length(n))
     do k = 0, n
-      s(k) = sensitivities(m, nodes%void_ratio(k), tensors(k))
-      x_h(:, k) = nodes%strain(k) * nodes%x(:, k)
-      weight_h(k) = nodes%strain(k) * nodes%weight(k)
-      rate(:, k) = apply_L(tensors(k), x_h(:, k)) + weight_h(k) * tensors(k)%N
-      d_void_ratio(:, k) = (1.0_wp + nodes%void_ratio(k)) * done(k) * unit_tensor
+      x_h = nodes%strain(k) * nodes%x(:, k)
+      weight_h = nodes%strain(k) * nodes%weight(k)
+      rate = apply_L(tensors(k), x_h) + weight_h * tensors(k)%N
+      call linearise(m, tensors(k), sensitivities(m, nodes%void_ratio(k), tensors(k)), x_h, weight_h, rate, &
+                     by_stress(:, :, k), by_void_ratio)
       direct(:, :, k) = nodes%strain(k) * direct_influence(k)
-      y(:, :, k) = influence%on_stress
+      do i = 1, 6 ! d(1 + e) = (1 + e) tr(eta) lambda
+        direct(:3, i, k) = direct(:3, i, k) + by_void_ratio(i) * (1.0_wp + nodes%void_ratio(k)) * done(k)
+      end do
+      total(:, :, k) = direct(:, :, k) + on_each(by_stress(:, :, k), influence%on_stress)
     end do
-    total(:, :, 0) = direct(:, :, 0) + with_state(0)
+    call integrate_influence(rule, influence%on_stress, total, y)
     error = huge(error)
-    previous = 0.0_wp
+    previous = error
     do pass = 1, most_passes
       do k = 1, n
-        total(:, :, k) = direct(:, :, k) + with_state(k)
+        total(:, :, k) = direct(:, :, k) + on_each(by_stress(:, :, k), y(:, :, k))
       end do
       old = y(:, :, n)
       call integrate_influence(rule, influence%on_stress, total, y)
       change = size_of(y(:, :, n) - old)
       at_end = size_of(y(:, :, n)) + left / nodes%strain(n) * size_of(total(:, :, n))
-      if (pass > 1 .and. change * min(1.0_wp, change / previous) <= 0.3_wp * leg%tolerance * at_end) exit
+      ! The first change is at most of the order of the change of stress, and the changes fall faster than geometrically.
+      if (pass > 1 .and. change * change <= enough * leg%tolerance * at_end * previous) exit
       if (pass == most_passes) return
       previous = change
     end do
-    error = tail([size_of(mode(0)), size_of(mode(1)), size_of(mode(2))], n, 0.0_wp) / at_end
+    error = missing(size_of(mode(0)), size_of(mode(2))) / (share * at_end)
     influence%on_stress = y(:, :, n) + (end - 1.0_wp) * total(:, :, n)
     influence%integral = integral(n) + (end - 1.0_wp) * slope(n)
 
@@ -104,12 +108,13 @@ contains
       variation = vary_with_operands(tensors(k), dx, dweight)
     end function direct_influence
 
-    !> Change of the rate at node k, per unit of the step, through stress and void ratio.
-    pure function with_state(k) result(variation)
-      integer, intent(in) :: k
-      real(wp) :: variation(6, 6)
-      variation = vary_with_state(m, tensors(k), s(k), x_h(:, k), weight_h(k), rate(:, k), y(:, :, k), d_void_ratio(:, k))
-    end function with_state
+    !> What the nodes leave out: mode 2 n, if the modes fall geometrically.
+    pure function missing(highest, second_below)
+      real(wp), intent(in) :: highest, second_below
+      real(wp) :: missing
+      missing = highest
+      if (highest < second_below) missing = highest * sqrt(highest / second_below)**n
+    end function missing
 
     !> Coefficient of the i-th mode from the highest.
     pure function mode(i) result(coefficient)

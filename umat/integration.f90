@@ -36,6 +36,8 @@ module umat_integration
   real(wp), parameter :: step_of_R = 1.0_wp
   !> Up to this part of R, or this strain of the plain model, the short rule is tried first.
   real(wp), parameter :: short_of_R = 0.15_wp, short_plain = 1.0e-5_wp
+  !> The tangent asks more of the nodes: this part of that.
+  real(wp), parameter :: short_with_tangent = 0.1_wp
 
   !> A step that is meant to cover this part of what is left covers it all; above the most that is left after a rejection (step.f90).
   real(wp), parameter :: nearly = 0.95_wp
@@ -80,7 +82,8 @@ contains
 
     wanted = length
     if (m%intergranular) wanted = min(length, step_of_R * m%R)
-    step%rule = merge(rule_short, rule_long, wanted <= merge(short_of_R * m%R, short_plain, m%intergranular))
+    step%rule = merge(rule_short, rule_long, wanted <= merge(short_of_R * m%R, short_plain, m%intergranular) * &
+                      merge(short_with_tangent, 1.0_wp, with_tangent))
     step%x = leg%path%start
     step%h = first_guess(m, leg%path, wanted)
     step%obstacle = status_step_limit

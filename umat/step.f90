@@ -29,8 +29,9 @@ module umat_step
     integer :: obstacle !< why the end of the leg cannot be reached, if it cannot: a status
   end type step_type
 
-  !> Part of the tolerance that one step may use: errors of many steps and of later increments add up.
-  real(wp), parameter :: share = 0.2_wp
+  !> Part of the tolerance that a step may use: errors of many steps and of later increments add up. A step over the whole
+  !> leg may use the most.
+  real(wp), parameter :: least_share = 0.05_wp, most_share = 0.5_wp
   !> Sweeps tried before the step is shortened, and the number that a step of good size needs.
   integer, parameter :: most_sweeps = 5, good_sweeps = 2
   !> A correction of this part of the stress is rounding: nothing can be told from how it compares with the one before.
@@ -66,7 +67,7 @@ contains
         covered = step%nodes%length(n)
         step%last = step%last .or. covered > ahead
         if (.not. step%last) return
-        if (abs(ahead - covered) <= close_enough * sqrt(share * leg%tolerance) * ahead) then
+        if (abs(ahead - covered) <= close_enough * sqrt(least_share * leg%tolerance) * ahead) then
           step%end = 1.0_wp + (ahead - covered) / step%nodes%strain(n)
           return
         end if
@@ -118,15 +119,15 @@ contains
     real(wp), intent(out) :: growth
     type(hypoplastic_type) :: tensors(0:most_nodes)
     type(influence_type) :: influence
-    real(wp) :: frozen(6, 0:most_nodes), f(6, 0:most_nodes), u(6, 0:most_nodes)
+    real(wp) :: by_stress(6, 6, most_nodes), f(6, 0:most_nodes), u(6, 0:most_nodes)
     real(wp) :: tolerance, scale, theta, missing, left, error
     integer :: n
 
     accepted = .false.
     n = rules(step%rule)%n
-    tolerance = share * leg%tolerance
+    tolerance = tolerance_of(leg, step)
     scale = norm(step%start%stress)
-    call prediction(m, rules(step%rule), step%nodes, step%start, frozen, f, u)
+    call prediction(m, rules(step%rule), step%nodes, step%start, by_stress, f, u)
     ! A first look that costs no evaluation of the rate.
     theta = norm(u(:, n)) / scale
     missing = missing_of(rules(step%rule), f, theta) / scale
@@ -139,7 +140,7 @@ contains
     growth = growth_after(missing, theta, tolerance, n)
     if (growth < 0.7_wp) return
 
-    call sweeps(m, leg, step, frozen, tensors, f, u, left, growth)
+    call sweeps(m, leg, step, by_stress, tensors, f, u, left, growth)
     if (growth < 1.0_wp) return
     theta = norm(u(:, n)) / scale
     scale = max(scale, norm(step%start%stress + u(:, n)))
@@ -172,11 +173,11 @@ contains
   !> Sweeps until the corrections are small enough.
   !> @param left   what further sweeps would still change, by estimate [stress]
   !> @param growth below 1 if the step must be shortened
-  pure subroutine sweeps(m, leg, step, frozen, tensors, f, u, left, growth)
+  pure subroutine sweeps(m, leg, step, by_stress, tensors, f, u, left, growth)
     type(material_type), intent(in) :: m
     type(leg_type), intent(in) :: leg
     type(step_type), intent(inout) :: step
-    real(wp), intent(in) :: frozen(6, 0:most_nodes)
+    real(wp), intent(in) :: by_stress(6, 6, most_nodes)
     type(hypoplastic_type), intent(inout) :: tensors(0:most_nodes)
     real(wp), intent(inout) :: f(6, 0:most_nodes), u(6, 0:most_nodes)
     real(wp), intent(out) :: left, growth
@@ -188,7 +189,7 @@ contains
     left = previous
     do i = 1, most_sweeps
       growth = 0.25_wp
-      call sweep(m, rules(step%rule), step%nodes, step%start, frozen, tensors, f, u, change, status)
+      call sweep(m, rules(step%rule), step%nodes, step%start, by_stress, tensors, f, u, change, status)
       step%evaluations = step%evaluations + n
       if (status /= status_ok) then
         step%obstacle = status
@@ -199,7 +200,7 @@ contains
       ratio = max(2.0_wp * change / max(norm(u(:, n)), tiny(ratio)), change / previous)
       left = change * min(1.0_wp, ratio)
       if (ratio > 0.5_wp .and. left > rounding * scale) return
-      if (left <= 0.5_wp * share * leg%tolerance * scale) then
+      if (left <= 0.5_wp * tolerance_of(leg, step) * scale) then
         growth = 1.0_wp
         ! The tangent is taken at the stress before the last correction.
         if (.not. leg%with_tangent .or. change <= leg%tolerance * scale) return
@@ -208,6 +209,15 @@ contains
       previous = change
     end do
   end subroutine sweeps
+
+  !> What a step may use of the tolerance.
+  pure function tolerance_of(leg, step) result(tolerance)
+    type(leg_type), intent(in) :: leg
+    type(step_type), intent(in) :: step
+    real(wp) :: tolerance
+    tolerance = leg%tolerance * (least_share + (most_share - least_share) * &
+                                 min(1.0_wp, step%nodes%length(rules(step%rule)%n) / leg%length))
+  end function tolerance_of
 
   !> Size of what the nodes leave out of the length of strain.
   pure function missing_length(leg, step) result(missing)

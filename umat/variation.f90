@@ -11,11 +11,11 @@ module umat_variation
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: status_ok, branch_plain, branch_loading
-  use umat_tensor, only: ddot, norm, trace, deviator, multiplicity
+  use umat_tensor, only: ddot, norm, deviator, multiplicity, unit_tensor
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, sensitivity_type, sensitivities, apply_L
   implicit none
   private
-  public :: vary_rate_of_stress, vary_operands, vary_with_operands, vary_with_state, change_with_state
+  public :: vary_rate_of_stress, vary_operands, vary_with_operands, linearise, on_each
 
   !> Number of variations: the six components of the stretching, and with each one the changes of state that go with it.
   integer, parameter, public :: n_variations = 6
@@ -41,8 +41,8 @@ contains
     real(wp), intent(out) :: rate(6), variation(n_variations, 6)
     integer, intent(out) :: status
     type(hypoplastic_type) :: h
-    type(sensitivity_type) :: sensitivity
-    real(wp) :: x(6), dx(n_variations, 6), weight, dweight(n_variations)
+    real(wp) :: x(6), dx(n_variations, 6), weight, dweight(n_variations), by_stress(6, 6), by_void_ratio(6)
+    integer :: i
 
     rate = 0.0_wp
     variation = 0.0_wp
@@ -51,9 +51,11 @@ contains
     call operands(m, g, d, branch, x, weight)
     rate = apply_L(h, x) + weight * h%N
     call vary_operands(m, g, d, branch, d_delta, dx, dweight)
-    sensitivity = sensitivities(m, void_ratio, h)
-    variation = vary_with_operands(h, dx, dweight) + &
-                vary_with_state(m, h, sensitivity, x, weight, rate, d_stress, d_void_ratio)
+    call linearise(m, h, sensitivities(m, void_ratio, h), x, weight, rate, by_stress, by_void_ratio)
+    variation = vary_with_operands(h, dx, dweight) + on_each(by_stress, d_stress)
+    do i = 1, 6
+      variation(:, i) = variation(:, i) + by_void_ratio(i) * d_void_ratio
+    end do
   end subroutine vary_rate_of_stress
 
   !> Variation of X and weight with delta and D; theory.md Eqs. (11) and (13).
@@ -140,67 +142,61 @@ contains
     end do
   end function vary_with_operands
 
-  !> Variation of the rate with stress and void ratio, dL:X + weight dN; theory.md Eq. (10).
-  !> @param h, s         L, N and their sensitivities
-  !> @param x, weight    operands of the rate
-  !> @param rate         L:X + weight N
-  !> @param d_stress     (variation, component)
-  !> @param d_void_ratio (variation)
-  !> @return (variation, component)
-  pure function vary_with_state(m, h, s, x, weight, rate, d_stress, d_void_ratio) result(variation)
+  !> Derivatives of the rate L:X + weight N with respect to stress and void ratio at given X and weight; theory.md Eqs. (1)
+  !> to (10), differentiated.
+  !> @param h, s          L, N and their sensitivities
+  !> @param x, weight     operands of the rate
+  !> @param rate          L:X + weight N
+  !> @param by_stress     matrix: change of the rate = by_stress d_stress, on tensor components
+  !> @param by_void_ratio d rate/d e
+  pure subroutine linearise(m, h, s, x, weight, rate, by_stress, by_void_ratio)
     type(material_type), intent(in) :: m
     type(hypoplastic_type), intent(in) :: h
     type(sensitivity_type), intent(in) :: s
-    real(wp), intent(in) :: x(6), weight, rate(6), d_stress(n_variations, 6), d_void_ratio(n_variations)
-    real(wp) :: variation(n_variations, 6)
-    real(wp), dimension(n_variations) :: d_pressure, by_that, by_rate, by_flow, by_x, d_F
-    real(wp) :: flow(6), on_stress, flow_size
-    integer :: i
+    real(wp), intent(in) :: x(6), weight, rate(6)
+    real(wp), intent(out) :: by_stress(6, 6), by_void_ratio(6)
+    real(wp), dimension(6) :: flow, on_log, on_that, on_F, on_flow
+    real(wp) :: flow_size, diagonal
+    integer :: j
 
     flow = h%that + deviator(h%that)
     flow_size = weight * h%f_s * m%a
-    d_pressure = -(d_stress(:, 1) + d_stress(:, 2) + d_stress(:, 3))
-    ! dThat = -(dT + That d pressure)/pressure, and d(That + T*hat) = 2 dThat, because tr dThat = 0.
-    on_stress = -(h%dyad * ddot(h%that, x) + 2.0_wp * flow_size * h%f_d * h%F) / h%pressure
-    by_rate = s%log_f_s_pressure * d_pressure + s%log_f_s_e * d_void_ratio + &
-              d_that(d_stress, d_pressure, h, s%log_f_s_that)
-    d_F = d_that(d_stress, d_pressure, h, s%F_that)
-    by_that = h%dyad * d_that(d_stress, d_pressure, h, x) + on_stress * d_pressure
-    by_x = 2.0_wp * h%f_s * h%F * d_F
-    by_flow = flow_size * (h%f_d * d_F + h%F * (s%f_d_pressure * d_pressure + s%f_d_e * d_void_ratio))
-    do i = 1, 6
-      variation(:, i) = by_rate * rate(i) + by_that * h%that(i) + by_x * x(i) + by_flow * flow(i) + &
-                        on_stress * d_stress(:, i)
+    ! d pressure = -tr dT; dThat = -(dT + That d pressure)/pressure, and d(That + T*hat) = 2 dThat, because tr dThat = 0.
+    diagonal = -(h%dyad * ddot(h%that, x) + 2.0_wp * flow_size * h%f_d * h%F) / h%pressure
+    on_F = through_that(h, s%F_that)
+    on_log = through_that(h, s%log_f_s_that) - s%log_f_s_pressure * unit_tensor
+    on_that = h%dyad * through_that(h, x) - diagonal * unit_tensor
+    on_flow = flow_size * (h%f_d * on_F - h%F * s%f_d_pressure * unit_tensor)
+    on_F = 2.0_wp * h%f_s * h%F * on_F
+    do j = 1, 6
+      by_stress(:, j) = on_log(j) * rate + on_that(j) * h%that + on_F(j) * x + on_flow(j) * flow
+      by_stress(j, j) = by_stress(j, j) + diagonal
     end do
-  end function vary_with_state
+    by_void_ratio = s%log_f_s_e * rate + flow_size * h%F * s%f_d_e * flow
+  end subroutine linearise
 
-  !> The same for one change of stress and void ratio.
-  !> @param d_stress, d_void_ratio the change
-  !> @return change of the rate
-  pure function change_with_state(m, h, s, x, weight, rate, d_stress, d_void_ratio) result(change)
-    type(material_type), intent(in) :: m
+  !> The vector that gives t:dThat for a change of stress, multiplicities included.
+  pure function through_that(h, t) result(on_stress)
     type(hypoplastic_type), intent(in) :: h
-    type(sensitivity_type), intent(in) :: s
-    real(wp), intent(in) :: x(6), weight, rate(6), d_stress(6), d_void_ratio
-    real(wp) :: change(6)
-    real(wp) :: d_that(6), d_pressure, d_F, flow_size
-    d_pressure = -trace(d_stress)
-    d_that = -(d_stress + d_pressure * h%that) / h%pressure
-    d_F = ddot(s%F_that, d_that)
-    flow_size = weight * h%f_s * m%a
-    change = (s%log_f_s_pressure * d_pressure + s%log_f_s_e * d_void_ratio + ddot(s%log_f_s_that, d_that)) * rate + &
-             h%dyad * (ddot(d_that, x) * h%that + ddot(h%that, x) * d_that) + 2.0_wp * h%f_s * h%F * d_F * x + &
-             flow_size * (h%f_d * d_F + h%F * (s%f_d_pressure * d_pressure + s%f_d_e * d_void_ratio)) * &
-             (h%that + deviator(h%that)) + 2.0_wp * flow_size * h%f_d * h%F * d_that
-  end function change_with_state
+    real(wp), intent(in) :: t(6)
+    real(wp) :: on_stress(6)
+    on_stress = (ddot(h%that, t) * unit_tensor - multiplicity * t) / h%pressure
+  end function through_that
 
-  !> dThat:t for each variation.
-  pure function d_that(d_stress, d_pressure, h, t) result(s)
-    real(wp), intent(in) :: d_stress(n_variations, 6), d_pressure(n_variations), t(6)
-    type(hypoplastic_type), intent(in) :: h
-    real(wp) :: s(n_variations)
-    s = -(contracted(d_stress, t) + d_pressure * ddot(h%that, t)) / h%pressure
-  end function d_that
+  !> A matrix on each of six variations of a vector.
+  !> @param v (variation, component)
+  pure function on_each(matrix, v) result(answer)
+    real(wp), intent(in) :: matrix(6, 6), v(n_variations, 6)
+    real(wp) :: answer(n_variations, 6)
+    integer :: i, k
+    do i = 1, 6
+      do k = 1, n_variations
+        answer(k, i) = ((matrix(i, 1) * v(k, 1) + matrix(i, 2) * v(k, 2)) + (matrix(i, 3) * v(k, 3) + &
+                                                                             matrix(i, 4) * v(k, 4))) + &
+                       (matrix(i, 5) * v(k, 5) + matrix(i, 6) * v(k, 6))
+      end do
+    end do
+  end function on_each
 
   !> Double contraction of each variation of a tensor with a tensor.
   pure function contracted(v, t) result(s)
