@@ -112,8 +112,8 @@ contains
   !> Ten increments of the worn points.
   subroutine wear(length)
     real(wp), intent(in) :: length
-    integer(c_int64_t) :: evaluations, scalar
-    integer(c_int) :: status(n_points)
+    integer(c_int64_t) :: scalar
+    integer(c_int) :: status(n_points), evaluations(n_points)
     integer :: k
     do k = 1, 10
       call update_all(0, worn, length * directions, status, evaluations, scalar)
@@ -126,14 +126,14 @@ contains
     type(points_type), intent(inout) :: points
     real(c_double), intent(in) :: strain(n_points, 6)
     integer(c_int), intent(out) :: status(n_points)
-    integer(c_int64_t), intent(out) :: evaluations, scalar
+    integer(c_int), intent(out) :: evaluations(n_points)
+    integer(c_int64_t), intent(out) :: scalar
     integer :: k
-    evaluations = 0
     scalar = 0
     do k = 1, n_points, group
     call update_points(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
                         stride, points%stress(k, 1), points%delta(k, 1), points%void_ratio(k), strain(k, 1), &
-                        status(k), evaluations, scalar)
+                        status(k), evaluations(k), scalar)
     end do
   end subroutine update_all
 
@@ -147,8 +147,8 @@ contains
     type(state_type) :: state
     type(report_type) :: report
     real(wp) :: best, best_scalar, error(n_points), strain(n_points, 6)
-    integer(c_int64_t) :: evaluations, scalar
-    integer(c_int) :: status(n_points)
+    integer(c_int64_t) :: scalar
+    integer(c_int) :: status(n_points), evaluations(n_points)
     integer(int64) :: began, ended, ticks
     integer :: k, j, outcome
     strain = length * directions
@@ -173,7 +173,7 @@ contains
       if (status(k) == status_ok .and. outcome == status_ok) error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
     end do
     write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
-      real(evaluations, wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
+      real(sum(evaluations), wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
   end subroutine time_batch
 
 end program bench_batch

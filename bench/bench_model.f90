@@ -126,13 +126,13 @@ contains
         evaluations(with_tangent) = evaluations(with_tangent) + real(report%evaluations, wp) / n_states
         if (with_tangent == 1 .and. status == status_ok) then
           exact = states(k)
-          call update_state(materials(k), options_type(tolerance=1.0e-11_wp), exact, length * directions(:, k), report, status)
+   call update_state(materials(k), options_type(tolerance=1.0e-11_wp), exact, length * directions(:, k), report, status)
           if (status == status_ok) error(k) = norm(state%stress - exact%stress) / norm(exact%stress)
         end if
       end do
       if (status /= status_ok) failed = failed + 1
     end do
-    write (*, '(es8.1, 2(f11.0, f10.1, f13.1), 3es11.1, i6)') length, median(time(:, 1)), median(time(:, 1)) / rate_cost, &
+ write (*, '(es8.1, 2(f11.0, f10.1, f13.1), 3es11.1, i6)') length, median(time(:, 1)), median(time(:, 1)) / rate_cost, &
       evaluations(1), median(time(:, 2)), median(time(:, 2)) / rate_cost, evaluations(2), median(error), &
       quantile(error, 0.99_wp), maxval(error), failed
   end subroutine time_updates

@@ -22,11 +22,11 @@ module umat_batch
   use umat_material, only: material_type, material_from_props, n_parameters
   use umat_rate, only: state_type
   use umat_status, only: status_ok
-  use umat_tableau, only: n_stages
+  use umat_lobatto, only: rule_short, rule_long
   use umat_update, only: options_type, report_type, update_state
   implicit none
   private
-  public :: update_points
+  public :: update_points, update_many
 
   !> Instruction sets, the same numbers as in batch.h.
   integer, parameter :: portable = 0, avx2 = 1, avx512 = 2
@@ -34,22 +34,17 @@ module umat_batch
   !> A path on which more steps are refused has a kink (the densest packing is reached, the isotropic axis is crossed), where
   !> rounding decides on the sequence of steps: the scalar update is to take it.
   integer, parameter :: most_refused = 6
+  !> Step over |delta| beyond which the series of the path will mostly not reach.
+  real(wp), parameter :: long_path = 0.2_wp
 
 contains
 
-  !> One strain increment of points of one material.
+  !> One strain increment of points of one material, for C.
   !> @param props           the 16 parameters, admissible
   !> @param tolerance       as in options_type, above zero
   !> @param max_evaluations as in options_type, above zero
-  !> @param instructions    one of the instruction sets, which the processor must have
-  !> @param n               number of points
-  !> @param stride          distance of two components of a tensor in the arrays, at least n
-  !> @param stress, delta, void_ratio in: start, out: end; a point's are untouched if its update fails
-  !>                        of the plain model delta is only checked, and may be absent
-  !> @param strain          strain increments, tensor components
-  !> @param status          of each point, as update_state gives it
-  !> @param evaluations     rate evaluations of all points
-  !> @param scalar          number of points that update_state did
+  !> @param delta           of the plain model only checked, and may be absent
+  !> The other arguments are those of update_many.
   subroutine update_points(props, tolerance, max_evaluations, instructions, n, stride, stress, delta, void_ratio, strain, &
                            status, evaluations, scalar) bind(C, name='hypofab_update_points')
     real(c_double), intent(in) :: props(n_parameters)
@@ -57,28 +52,50 @@ contains
     integer(c_int), intent(in) :: max_evaluations
     integer(c_int), value :: instructions, n
     integer(c_int64_t), value :: stride
-    real(c_double), intent(inout) :: stress(stride, 6), void_ratio(stride)
-    real(c_double), intent(inout), optional :: delta(stride, 6)
-    real(c_double), intent(in) :: strain(stride, 6)
-    integer(c_int), intent(out) :: status(n)
-    integer(c_int64_t), intent(inout) :: evaluations, scalar
-    type(material_type) :: m
+    real(c_double), intent(inout) :: stress(stride, *), void_ratio(*)
+    real(c_double), intent(inout), optional :: delta(stride, *)
+    real(c_double), intent(in) :: strain(stride, *)
+    integer(c_int), intent(inout) :: status(*), evaluations(*)
+    integer(c_int64_t), intent(inout) :: scalar
     type(options_type) :: options
-    integer :: first, last
-
-    m = material_from_props(props)
     options = options_type(tolerance=tolerance, max_evaluations=max_evaluations)
+  call update_many(material_from_props(props), options, int(instructions), int(n), stride, stress, void_ratio, strain, &
+                     status, evaluations, scalar, delta)
+  end subroutine update_points
+
+  !> One strain increment of points of one material.
+  !> @param m            material
+  !> @param options      tolerance and bounds
+  !> @param instructions one of the instruction sets, which the processor must have
+  !> @param n            number of points
+  !> @param stride       distance of two components of a tensor in the arrays, at least n
+  !> @param stress, delta, void_ratio in: start, out: end; a point's are untouched if its update fails
+  !> @param strain       strain increments, tensor components
+  !> @param status       of each point, as update_state gives it
+  !> @param evaluations  rate evaluations of each point
+  !> @param scalar       the number of points that update_state did is added
+  subroutine update_many(m, options, instructions, n, stride, stress, void_ratio, strain, status, evaluations, scalar, delta)
+    type(material_type), intent(in) :: m
+    type(options_type), intent(in) :: options
+    integer, intent(in) :: instructions, n
+    integer(c_int64_t), intent(in) :: stride
+    real(c_double), intent(inout) :: stress(stride, *), void_ratio(*)
+    real(c_double), intent(in) :: strain(stride, *)
+    integer(c_int), intent(inout) :: status(*), evaluations(*)
+    integer(c_int64_t), intent(inout) :: scalar
+    real(c_double), intent(inout), optional :: delta(stride, *)
+    integer :: first, count
     do first = 1, n, most_points
-      last = min(n, first + most_points - 1)
+      count = min(n - first + 1, most_points)
       if (present(delta)) then
-        call update_group(m, options, instructions, last - first + 1, stride, stress(first, 1), void_ratio(first), &
-                          strain(first, 1), status(first:last), evaluations, scalar, delta(first, 1))
+     call update_group(m, options, instructions, count, stride, stress(first, 1), void_ratio(first), strain(first, 1), &
+                          status(first), evaluations(first), scalar, delta(first, 1))
       else
-        call update_group(m, options, instructions, last - first + 1, stride, stress(first, 1), void_ratio(first), &
-                          strain(first, 1), status(first:last), evaluations, scalar)
+     call update_group(m, options, instructions, count, stride, stress(first, 1), void_ratio(first), strain(first, 1), &
+                          status(first), evaluations(first), scalar)
       end if
     end do
-  end subroutine update_points
+  end subroutine update_many
 
   !> The same for up to most_points points.
   subroutine update_group(m, options, instructions, n, stride, stress, void_ratio, strain, status, evaluations, scalar, delta)
@@ -88,13 +105,13 @@ contains
     integer(c_int64_t), intent(in) :: stride
     real(c_double), intent(inout) :: stress(stride, *), void_ratio(*)
     real(c_double), intent(in) :: strain(stride, *)
-    integer(c_int), intent(out) :: status(n)
-    integer(c_int64_t), intent(inout) :: evaluations, scalar
+    integer(c_int), intent(inout) :: status(*), evaluations(*)
+    integer(c_int64_t), intent(inout) :: scalar
     real(c_double), intent(inout), optional :: delta(stride, *)
     real(wp) :: lanes(n_lanes, n_fields)
     integer(int64) :: tags(n_lanes, n_tags)
     integer :: point(n_lanes) !< whose numbers a lane holds
-    integer :: left !< number of lanes in use
+    integer :: left, top !< number of points left, and the last lane in use: between them may be copies, whose point is 0
     integer :: i
 
     call load()
@@ -103,7 +120,8 @@ contains
     call close_ranks()
     do while (left > 0)
       call step_all()
-      do i = 1, left
+      do i = 1, top
+        if (point(i) == 0) cycle
         if (tags(i, t_outcome) == outcome_segment_done) call end_segment(i)
         if (tags(i, t_outcome) == outcome_going .and. .not. may_go_on(i)) tags(i, t_outcome) = outcome_special
       end do
@@ -117,7 +135,8 @@ contains
       logical :: finite(n)
       integer :: j
       left = n
-      tags(:n, t_far) = 0
+      top = n
+      tags(:n, t_rule) = rule_short
       lanes(:n, l_e) = void_ratio(:n)
       finite = ieee_is_finite(void_ratio(:n))
       do j = 1, 6
@@ -134,102 +153,163 @@ contains
       point(:n) = [(j, j=1, n)]
     end subroutine load
 
-    !> Hand what the kernel does not decide to the scalar update, move the lanes still in use together, and fill the last
-    !> register with copies.
+    !> Hand what the kernel does not decide to the scalar update, and move the lanes still in use together.
     subroutine close_ranks()
       integer :: kept, j
       kept = 0
-      do j = 1, left
+      do j = 1, top
+        if (point(j) == 0) cycle
         if (tags(j, t_outcome) == outcome_special) call update_alone(point(j))
         if (tags(j, t_outcome) /= outcome_begin .and. tags(j, t_outcome) /= outcome_going) cycle
         kept = kept + 1
-        if (kept == j) cycle
-        lanes(kept, :) = lanes(j, :)
-        tags(kept, :) = tags(j, :)
-        point(kept) = point(j)
+        if (kept /= j) call move(j, kept)
       end do
       left = kept
-      if (left == 0) return
-      do j = left + 1, padded()
-        lanes(j, :) = lanes(left, :)
-        tags(j, :) = tags(left, :)
-      end do
+      top = left
+      if (left > 0) call fill_up(left)
     end subroutine close_ranks
 
-    !> Bring lanes with long paths together at the end, so that few registers do more than the series of the path.
-    subroutine sort_ranks()
-      integer :: near, far, held_point
-      integer(int64) :: held_tag
-      real(wp) :: held
-      integer :: j
-      near = 1
-      far = left
-      do
-        do while (near < far)
-          if (tags(near, t_far) /= 0) exit
-          near = near + 1
-        end do
-        do while (near < far)
-          if (tags(far, t_far) == 0) exit
-          far = far - 1
-        end do
-        if (near >= far) return
-        do j = 1, n_fields
-          held = lanes(near, j)
-          lanes(near, j) = lanes(far, j)
-          lanes(far, j) = held
-        end do
-        do j = 1, n_tags
-          held_tag = tags(near, j)
-          tags(near, j) = tags(far, j)
-          tags(far, j) = held_tag
-        end do
-        held_point = point(near)
-        point(near) = point(far)
-        point(far) = held_point
-      end do
-    end subroutine sort_ranks
+    !> A point into another lane.
+    subroutine move(from, to)
+      integer, intent(in) :: from, to
+      lanes(to, :) = lanes(from, :)
+      tags(to, :) = tags(from, :)
+      point(to) = point(from)
+    end subroutine move
 
-    !> Number of lanes that the kernel works on: whole registers.
-    pure function padded() result(lanes_in_use)
-      integer :: lanes_in_use
-      lanes_in_use = width * ((left + width - 1) / width)
+    !> Fill the last register behind a lane with copies of it.
+    subroutine fill_up(lane)
+      integer, intent(in) :: lane
+      integer :: j
+      do j = lane + 1, padded(lane)
+        call move(lane, j)
+        point(j) = 0
+      end do
+    end subroutine fill_up
+
+    !> Order the lanes by rule, each in registers of its own, and those with long paths last, so that few registers do more
+    !> than the series of the path.
+    !> @param short lanes of the short rule, whole registers
+    subroutine arrange(short)
+      integer, intent(out) :: short
+      integer :: n_short, near, gap, j
+      n_short = partition(1, left, tags(:, t_rule) == rule_short)
+      near = partition(1, n_short, is_near())
+      near = partition(n_short + 1, left, is_near())
+      short = padded(n_short)
+      top = left
+      gap = short - n_short
+      if (n_short == 0 .or. n_short == left) then
+        call fill_up(left)
+        return
+      end if
+      ! The first of the long ones make room.
+      do j = n_short + 1, min(left, short)
+        call move(j, max(left, short) + j - n_short)
+      end do
+      top = left + min(gap, left - n_short)
+      if (left < short) top = short + left - n_short
+      call fill_up(n_short)
+      if (top > short) call fill_up(top)
+    end subroutine arrange
+
+    !> Will the series of the path mostly reach?
+    pure function is_near() result(near)
+      logical :: near(n_lanes)
+      near(:left) = lanes(:left, l_h) * lanes(:left, l_speed) < long_path * m%R * lanes(:left, l_rho)
+      near(left + 1:) = .true.
+    end function is_near
+
+    !> Bring lanes first to last into the order of a property.
+    !> @return the last that has it
+    function partition(first, last, has) result(end)
+      integer, intent(in) :: first, last
+      logical, intent(in) :: has(n_lanes)
+      integer :: end
+      logical :: mine(n_lanes)
+      integer :: other, held_point
+      real(wp) :: held(n_fields)
+      integer(int64) :: held_tag(n_tags)
+      mine = has
+      end = first - 1
+      other = last
+      do
+        do while (end < other)
+          if (.not. mine(end + 1)) exit
+          end = end + 1
+        end do
+        do while (end < other)
+          if (mine(other)) exit
+          other = other - 1
+        end do
+        if (end >= other) return
+        held = lanes(end + 1, :)
+        held_tag = tags(end + 1, :)
+        held_point = point(end + 1)
+        call move(other, end + 1)
+        lanes(other, :) = held
+        tags(other, :) = held_tag
+        point(other) = held_point
+        mine(end + 1) = .true.
+        mine(other) = .false.
+      end do
+    end function partition
+
+    !> Number of lanes in whole registers.
+    pure function padded(in_use) result(whole)
+      integer, intent(in) :: in_use
+      integer :: whole
+      whole = width * ((in_use + width - 1) / width)
     end function padded
 
     subroutine begin_increments()
       select case (instructions)
 #ifdef HYPOFAB_BATCH_X86
       case (avx512)
-        call begin_increment_avx512(m, padded(), lanes, tags)
+        call begin_increment_avx512(m, padded(left), lanes, tags)
       case (avx2)
-        call begin_increment_avx2(m, padded(), lanes, tags)
+        call begin_increment_avx2(m, padded(left), lanes, tags)
 #endif
       case default
-        call begin_increment_portable(m, padded(), lanes, tags)
+        call begin_increment_portable(m, padded(left), lanes, tags)
       end select
     end subroutine begin_increments
 
     !> Begin the segments that are to begin, and try one step in every lane.
     subroutine step_all()
-      logical :: begins
-      begins = any(tags(:left, t_outcome) == outcome_begin)
+      integer :: short
+      if (any(tags(:left, t_outcome) == outcome_begin)) then
+        select case (instructions)
+#ifdef HYPOFAB_BATCH_X86
+        case (avx512)
+          call begin_segment_avx512(m, padded(left), lanes, tags)
+        case (avx2)
+          call begin_segment_avx2(m, padded(left), lanes, tags)
+#endif
+        case default
+          call begin_segment_portable(m, padded(left), lanes, tags)
+        end select
+      end if
+      call arrange(short)
+      call attempt(rule_short, 0, short)
+      call attempt(rule_long, short, padded(top) - short)
+    end subroutine step_all
+
+    !> Try one step by a rule.
+    !> @param first, n lanes first + 1 to first + n
+    subroutine attempt(rule, first, n)
+      integer, intent(in) :: rule, first, n
       select case (instructions)
 #ifdef HYPOFAB_BATCH_X86
       case (avx512)
-        if (begins) call begin_segment_avx512(m, padded(), lanes, tags)
-        if (begins) call sort_ranks()
-        call attempt_step_avx512(m, options%tolerance, padded(), lanes, tags)
+        call attempt_step_avx512(m, options%tolerance, rule, first, n, lanes, tags)
       case (avx2)
-        if (begins) call begin_segment_avx2(m, padded(), lanes, tags)
-        if (begins) call sort_ranks()
-        call attempt_step_avx2(m, options%tolerance, padded(), lanes, tags)
+        call attempt_step_avx2(m, options%tolerance, rule, first, n, lanes, tags)
 #endif
       case default
-        if (begins) call begin_segment_portable(m, padded(), lanes, tags)
-        if (begins) call sort_ranks()
-        call attempt_step_portable(m, options%tolerance, padded(), lanes, tags)
+        call attempt_step_portable(m, options%tolerance, rule, first, n, lanes, tags)
       end select
-    end subroutine step_all
+    end subroutine attempt
 
     !> Loading follows upon a reversal, or the increment is done.
     subroutine end_segment(lane)
@@ -249,14 +329,14 @@ contains
       end do
       void_ratio(k) = lanes(lane, l_e)
       status(k) = status_ok
-      evaluations = evaluations + int(lanes(lane, l_evaluations), int64)
+      evaluations(k) = int(lanes(lane, l_evaluations), c_int)
     end subroutine end_segment
 
     !> May a lane take another step here? The scalar update knows why a bound is reached.
     pure function may_go_on(lane) result(yes)
       integer, intent(in) :: lane
       logical :: yes
-     yes = lanes(lane, l_evaluations) + n_stages <= options%max_evaluations .and. lanes(lane, l_refused) <= most_refused
+     yes = lanes(lane, l_evaluations) <= options%max_evaluations .and. lanes(lane, l_refused) <= most_refused
     end function may_go_on
 
     !> A point by the scalar update, from its start.
@@ -271,7 +351,7 @@ contains
       increment = strain(k, :6)
       call update_state(m, options, state, increment, report, outcome)
       status(k) = int(outcome, c_int)
-      evaluations = evaluations + report%evaluations
+      evaluations(k) = int(report%evaluations, c_int)
       scalar = scalar + 1
       if (outcome /= status_ok) return
       stress(k, :6) = state%stress

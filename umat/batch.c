@@ -3,17 +3,6 @@
 
 #include "base/message.h"
 
-int hypofab_batch_best_instructions(void) {
-#ifdef HYPOFAB_BATCH_X86
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-      return BATCH_AVX512;
-    return BATCH_AVX2;
-  }
-#endif
-  return BATCH_PORTABLE;
-}
-
 static hypofab_status check(const hypofab_material *material, const hypofab_points *points, int threads) {
   hypofab_status status = hypofab_material_check(material);
   if (status) return status;
@@ -45,12 +34,13 @@ typedef struct tally {
 /* Points first to first + n - 1, a group. */
 static void update_group(int instructions, const hypofab_material *material, const hypofab_update_options *options,
                          const hypofab_points *points, size_t first, int n, tally *done) {
-  int status[GROUP];
+  int status[GROUP], evaluations[GROUP];
   hypofab_update_points(material, &options->tolerance, &options->max_evaluations, instructions, n,
                         (int64_t)points->stride, points->stress + first, points->delta ? points->delta + first : NULL,
-                        points->void_ratio + first, points->strain + first, status, &done->evaluations, &done->scalar);
+                        points->void_ratio + first, points->strain + first, status, evaluations, &done->scalar);
   for (int i = 0; i < n; i++) {
     if (points->status) points->status[first + (size_t)i] = status[i];
+    done->evaluations += evaluations[i];
     if (!status[i]) continue;
     done->failed++;
     if (first + (size_t)i >= done->first_failed) continue;

@@ -6,7 +6,9 @@ module HYPOFAB_BATCH_BEGIN
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use umat_batch_lanes
   use umat_material, only: material_type
-  use umat_tableau, only: vanishing, substep_of_R, plain_substep
+  use umat_delta_path, only: axis_power
+  use umat_integration, only: vanishing, step_of_R, short_of_R, short_plain
+  use umat_lobatto, only: rule_short, rule_long
   implicit none
   private
   public :: begin_increment, begin_segment
@@ -18,9 +20,6 @@ module HYPOFAB_BATCH_BEGIN
   real(wp), parameter :: negligible = 10.0_wp * epsilon(1.0_wp)
   !> Outside these bounds the scalar update decides: sizes, pressure of h_s, pressure of the size of stress.
   real(wp), parameter :: smallest_size = 1.0e-90_wp, smallest_pressure = 1.0e-20_wp, smallest_share = 1.0e-12_wp
-  !> Step over |delta| beyond which the series of the path will mostly not reach.
-  real(wp), parameter :: long_path = 0.2_wp
-
 contains
 
   !> Direction, length and first segment of an increment.
@@ -96,7 +95,7 @@ contains
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     real(wp) :: begins, straight, plane, axis, unfit !< 1 for yes, 0 for no: the vectoriser has no use for logicals
     real(wp) :: R, beta_r, inverse_R, inverse_beta, u, v, d1, d2, d3, d4, d5, d6, square, ahead, rho_square, log_rho, rho_beta
-    real(wp) :: inverse_v, ratio, x, kappa, power, exponent, amplitude, speed, wanted, scale, whole, inverse, chi
+  real(wp) :: inverse_v, ratio, x, kappa, power, speed, wanted, scale, whole, inverse, chi, decay, left, slope, h, guess
     integer(int64) :: kind
     integer :: i
 
@@ -113,7 +112,12 @@ contains
         lanes(i, l_across + 4) = 0.0_wp
         lanes(i, l_across + 5) = 0.0_wp
         lanes(i, l_x) = 0.0_wp
-        lanes(i, l_h) = chosen(begins, min(plain_substep, lanes(i, l_length)), lanes(i, l_h))
+        lanes(i, l_h) = chosen(begins, lanes(i, l_length), lanes(i, l_h))
+        lanes(i, l_wanted) = chosen(begins, lanes(i, l_length), lanes(i, l_wanted))
+        lanes(i, l_speed) = 1.0_wp
+        lanes(i, l_rho) = 1.0_wp
+      tags(i, t_rule) = merge(merge(int(rule_short, int64), int(rule_long, int64), lanes(i, l_length) <= short_plain), &
+                                tags(i, t_rule), begins > half)
         lanes(i, l_done) = chosen(begins, 0.0_wp, lanes(i, l_done))
         lanes(i, l_evaluations) = lanes(i, l_evaluations) + begins
         tags(i, t_kind) = kind_fixed
@@ -151,17 +155,18 @@ contains
       log_rho = merge(log_rho, log_of_zero, rho_square > nothing)
       rho_beta = exp(beta_r * log_rho)
       plane = merge(1.0_wp - straight, 0.0_wp, v > negligible)
-      axis = merge(1.0_wp - straight - plane, 0.0_wp, rho_beta < 1.0_wp)
+      axis = merge(1.0_wp - straight - plane, 0.0_wp, ahead < 1.0_wp - negligible)
       inverse_v = 1.0_wp / max(v, negligible)
       ratio = max(ahead, 0.0_wp) * inverse_v
-      x = log(merge(ratio + sqrt(ratio**2 + 1.0_wp), 1.0_wp / max(1.0_wp - rho_beta, negligible), plane > half))
+      decay = axis * (1.0_wp - sqrt(sqrt(min(1.0_wp, max(ahead, 0.0_wp))))) ! the root of order axis_power
+      x = log(merge(ratio + sqrt(ratio**2 + 1.0_wp), 1.0_wp / max(decay, negligible), plane > half))
       x = merge(x, 0.0_wp, plane + axis > half)
       kappa = plane * (1.0_wp - rho_beta) * exp(beta_r * log(inverse_v))
       kappa = merge(square, kappa, straight > half)
-      power = (axis - plane) * inverse_beta + half * straight
-      exponent = plane + axis * (1.0_wp - beta_r) - straight
-      amplitude = merge(R * merge(inverse_beta, 1.0_wp, axis > half), 1.0_wp, plane + axis > half)
-      speed = amplitude * exp(min(0.0_wp, (1.0_wp - straight) * exponent * log_rho))
+      power = axis_power * axis - plane * inverse_beta + half * straight
+      left = chosen(axis, decay * loss(decay, axis_power * beta_r, rho_beta), 1.0_wp - rho_beta)
+      speed = chosen(plane, R * exp(min(0.0_wp, log_rho)), 1.0_wp)
+      speed = chosen(axis, R * axis_power * (1.0_wp - decay)**(axis_power - 1) / max(1.0e-100_wp, loss(decay, axis_power * beta_r, rho_beta)), speed)
       ! The direction of delta: tanh x and sech x on a plane path, parts of d and of the normal part of delta on a straight one.
       whole = sqrt(rho_square)
       inverse = 1.0_wp / max(whole, negligible)
@@ -170,15 +175,21 @@ contains
                                        lanes(i, l_node_across))
       lanes(i, l_speed) = chosen(begins, speed, lanes(i, l_speed))
       lanes(i, l_rho) = chosen(begins, chosen(straight, whole, min(whole, 1.0_wp)), lanes(i, l_rho))
-      lanes(i, l_rho_beta) = chosen(begins, rho_beta, lanes(i, l_rho_beta))
+      lanes(i, l_left) = chosen(begins, left, lanes(i, l_left))
+      lanes(i, l_decay) = chosen(begins, decay, lanes(i, l_decay))
       lanes(i, l_rho_chi) = chosen(begins, exp(chi * log_rho), lanes(i, l_rho_chi))
-      lanes(i, l_exponent) = chosen(begins, exponent, lanes(i, l_exponent))
-      lanes(i, l_amplitude) = chosen(begins, amplitude, lanes(i, l_amplitude))
-      wanted = min(substep_of_R * R, lanes(i, l_length))
-      ! For the scalar update: delta longer than R; delta = 0 where the speed has no limit there; a reversal straight back
+      ! first_guess of delta_path.f90.
+      wanted = min(step_of_R * R, lanes(i, l_length))
+      slope = speed * chosen(plane, left * lanes(i, l_node_along), (axis_power - 1) * decay / max(1.0_wp - decay, 1.0e-100_wp))
+      h = 2.0_wp * wanted / max(speed + sqrt(speed**2 + 2.0_wp * slope * wanted), 1.0e-100_wp)
+      guess = log(max(decay, negligible) / max(negligible, 1.0_wp - sqrt(sqrt(min(0.9_wp, max(ahead, 0.0_wp) + wanted * inverse_R)))))
+      guess = merge(guess, 1.0e100_wp, guess > 0.0_wp)
+      h = chosen(axis, min(guess, merge(h, 1.0e100_wp, speed > 0.0_wp)), h)
+      h = chosen(plane + axis, h, wanted)
+      ! For the scalar update: delta longer than R; no first guess; a reversal straight back
       ! through delta = 0, after which nothing but rounding tells where the loading starts.
       unfit = merge(1.0_wp, 0.0_wp, rho_square > 1.0_wp + 1.0e-9_wp) + &
-              merge(axis, 0.0_wp, max(1.0_wp - beta_r, rho_beta) <= 0.0_wp) + &
+              merge(0.0_wp, 1.0_wp, h < 1.0e50_wp) + &
               merge(straight, 0.0_wp, max(v, 1.0e-5_wp - lanes(i, l_rest) * inverse_R) < 1.0e-5_wp)
       kind = merge(kind_plane, merge(kind_axis, kind_fixed, axis > half), plane > half)
       kind = merge(kind_straight, kind, straight > half)
@@ -193,12 +204,13 @@ contains
       lanes(i, l_start) = chosen(begins, u, lanes(i, l_start))
       lanes(i, l_power) = chosen(begins, power, lanes(i, l_power))
       lanes(i, l_x) = chosen(begins, x, lanes(i, l_x))
-      lanes(i, l_h) = chosen(begins, wanted / max(speed, wanted), lanes(i, l_h))
+      lanes(i, l_h) = chosen(begins, h, lanes(i, l_h))
+      lanes(i, l_wanted) = chosen(begins, wanted, lanes(i, l_wanted))
       lanes(i, l_done) = chosen(begins, 0.0_wp, lanes(i, l_done))
       lanes(i, l_evaluations) = lanes(i, l_evaluations) + begins
       tags(i, t_kind) = merge(kind, tags(i, t_kind), begins > half)
-      tags(i, t_far) = merge(1_int64, 0_int64, min(lanes(i, l_h) * lanes(i, l_speed), lanes(i, l_length)) > &
-                             long_path * R * lanes(i, l_rho))
+      tags(i, t_rule) = merge(merge(int(rule_short, int64), int(rule_long, int64), wanted <= short_of_R * R), tags(i, t_rule), &
+                              begins > half)
       tags(i, t_outcome) = merge(merge(outcome_special, outcome_going, unfit > half), tags(i, t_outcome), begins > half)
     end do
   end subroutine begin_segment

@@ -9,8 +9,8 @@ module umat_batch_lanes
   !> Points that go through the rounds together, so many that what is known of them stays in the first cache; and lanes
   !> that the kernel works on at once, a multiple of the widest vector register. No result depends on them.
   integer, parameter :: most_points = 64, width = 16
-  !> Lanes, a few more so that the fields of a point fall into different sets of the cache.
-  integer, parameter :: n_lanes = most_points + 8
+  !> Lanes: room to fill up the registers of two rules, and a few more so that the fields of a point fall into different sets of the cache.
+  integer, parameter :: n_lanes = most_points + 2 * width + 8
 
   !> Fields. Tensors take six; those of delta and void ratio belong to the start of the present segment, a part of the
   !> increment on one branch.
@@ -27,16 +27,16 @@ module umat_batch_lanes
   integer, parameter :: l_trace = 34 !< trace of the direction
   integer, parameter :: l_smallest = 35 !< |stress| below which the path is on its way to zero
   integer, parameter :: l_evaluations = 36, l_refused = 37 !< rate evaluations, steps refused
-  integer, parameter :: l_exponent = 38, l_amplitude = 39 !< the speed of the path is amplitude rho^exponent; straight: the size of the
-  !                                                                         direction's part across is rho^exponent
+  integer, parameter :: l_wanted = 38 !< length of strain that the next step should cover
+  !> The path at the step's start: speed, components of the direction of delta, rho^chi, rho, 1 - rho^beta_r, and exp(-x)
+  !> of an axis.
+  integer, parameter :: l_speed = 39, l_node_along = 40, l_node_across = 41, l_rho_chi = 42, l_rho = 43, l_left = 44, l_decay = 45
   integer, parameter :: n_fields = 45
-  integer, parameter :: l_speed = 40, l_node_along = 41, l_node_across = 42, l_rho_chi = 43, l_rho = 44, l_rho_beta = 45 !< the path
-  !                     at the step's start: speed, components of the direction of delta, rho and its powers
 
-  !> Tags: kind of path, as in delta_path.f90, and what became of an attempted step, and 1 for a path that is long
-  !> against delta, for which the series of the path will not reach. As wide as a field, so that they fill
+  !> Tags: kind of path, as in delta_path.f90, and what became of an attempted step, and the rule of the
+  !> next (lobatto.f90). As wide as a field, so that they fill
   !> masks without conversion.
-  integer, parameter :: t_kind = 1, t_outcome = 2, t_far = 3, n_tags = 3
+  integer, parameter :: t_kind = 1, t_outcome = 2, t_rule = 3, n_tags = 3
   integer(int64), parameter :: kind_fixed = 0_int64, kind_straight = 1_int64, kind_axis = 2_int64, kind_plane = 3_int64
   !> special: the scalar update must decide; begin: the segment is to begin.
   integer(int64), parameter :: outcome_going = 0_int64, outcome_segment_done = 1_int64, outcome_special = 2_int64, &
@@ -46,6 +46,8 @@ module umat_batch_lanes
   real(real64), parameter :: half = 0.5_real64
   !> Stands for zero under a logarithm or in a divisor.
   real(real64), parameter :: nothing = 1.0e-290_real64
+  !> A path further out is left to the scalar update.
+  real(real64), parameter :: largest_x = 600.0_real64
   !> Reach of the series in batch_series.inc.
   real(real64), parameter :: reach_of_exp = 0.25_real64, reach_of_log = 0.125_real64
 end module umat_batch_lanes

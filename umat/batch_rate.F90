@@ -1,4 +1,4 @@
-!> The rate of stress of many points side by side: wolffersdorff.f90 and intergranular.f90, written without branches.
+!> L and N of many points side by side: wolffersdorff.f90, written without branches.
 !>
 !> Pressure and void ratio change little within a step. Their powers follow by series from those at the step's start;
 !> lanes for which the series do not reach are done in full.
@@ -10,7 +10,7 @@ module HYPOFAB_BATCH_RATE
   use umat_material, only: material_type
   implicit none
   private
-  public :: origin_type, origin_of_step, stress_rate
+  public :: origin_type, origin_of_step, tensors_type, tensors_at, apply
 
   integer, parameter :: wp = real64
   !> Outside these bounds the scalar update decides.
@@ -24,37 +24,47 @@ module HYPOFAB_BATCH_RATE
   real(wp), parameter :: smallest_density = 1.0e-3_wp
   real(wp), parameter :: third = 1.0_wp / 3.0_wp
 
-  !> Pressure and void ratio at the start of a step, and their powers.
+  !> L and N as in hypoplastic_type.
+  type :: tensors_type
+    real(wp) :: that(width, 6) !< T/tr T
+    real(wp) :: F(width), f_s(width), f_d(width)
+    real(wp) :: inverse_square(width) !< 1/(That:That)
+  end type tensors_type
+
+  !> Pressure and void ratio at the start of a step and their powers; L and N there.
   type :: origin_type
-    real(wp) :: done(width) !< length of strain done in the segment [strain]
     real(wp) :: inverse_pressure(width) !< of -tr(T - p_t 1) [1/stress]
-    real(wp) :: volume(width), inverse_e(width) !< 1 + e, 1/e
+    real(wp) :: e(width), volume(width), inverse_e(width) !< void ratio, 1 + e, 1/e
     real(wp) :: power(width), growth(width) !< (pressure/h_s)^n, and its exponential
     real(wp) :: f_e(width) !< powers of pressure and void ratio in f_s
-    real(wp) :: density(width), f_d(width) !< (e - e_d)/(e_c - e_d), f_d
+    real(wp) :: density(width), f_d(width) !< (e - e_d)/(e_c - e_d), f_d; for the series
+    type(tensors_type) :: h
   end type origin_type
 
-  !> The direction of stress at a stage.
-  type :: geometry_type
-    real(wp) :: that(width, 6) !< T/tr T
-    real(wp) :: F(width), inverse_square(width) !< 1/(That:That)
+  !> Pressure at a node.
+  type :: pressure_type
     real(wp) :: ratio(width), log_argument(width) !< pressure over that of the origin, (ratio - 1)/(ratio + 1)
-  end type geometry_type
+  end type pressure_type
 
-  !> The scalars of a stage.
+  !> The scalars of a node.
   type :: scalars_type
     real(wp) :: growth(width), f_e(width), f_d(width) !< as in origin_type
   end type scalars_type
 
 contains
 
-  !> The origin of the series.
-  !> @param b lanes b + 1 to b + width
-  pure subroutine origin_of_step(m, b, lanes, origin)
+  !> The start of a step.
+  !> @param b   lanes b + 1 to b + width
+  !> @param bad set to 1 where it is outside the domain or near its border
+  pure subroutine origin_of_step(m, b, lanes, origin, bad)
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
     real(wp), intent(in) :: lanes(n_lanes, n_fields)
-    type(origin_type), intent(out) :: origin
+    type(origin_type), intent(inout) :: origin
+    real(wp), intent(inout) :: bad(width)
+    type(pressure_type) :: p
+    type(scalars_type) :: s
+    real(wp) :: unmoved(width, 6)
     real(wp) :: e, pressure, log_p, exponent, alpha, beta, e_d0, log_e_c0, inverse_h_s, inverse_range, density, h_s, p_t, power, &
                 growth
     integer :: i
@@ -78,7 +88,7 @@ contains
       power = exp(exponent * log_p)
       growth = exp(power)
       density = (e * growth - e_d0) * inverse_range
-      origin%done(i) = lanes(b + i, l_done)
+      origin%e(i) = e
       origin%inverse_pressure(i) = 1.0_wp / pressure
       origin%volume(i) = 1.0_wp + e
       origin%inverse_e(i) = 1.0_wp / e
@@ -87,61 +97,77 @@ contains
       origin%f_e(i) = exp((1.0_wp - exponent) * log_p + beta * (log_e_c0 - log(e) - power))
       origin%density(i) = max(density, smallest_density) ! below, the series do not reach
       origin%f_d(i) = exp(alpha * log(origin%density(i)))
+      s%growth(i) = growth
+      s%f_e(i) = origin%f_e(i)
+      s%f_d(i) = merge(origin%f_d(i), exp(alpha * log(max(density, nothing))), density >= smallest_density)
+      s%f_d(i) = merge(s%f_d(i), 0.0_wp, density > nothing)
     end do
+    unmoved = 0.0_wp
+    call direction_of_stress(m, b, lanes, origin, unmoved, origin%h, p, bad)
+    call assemble(m, s, origin%h)
   end subroutine origin_of_step
 
-  !> Rates of stress with respect to the path's parameter; theory.md Eqs. (1) to (10), (11) and (13).
-  !> @param y         stress, and length of strain done in the segment
-  !> @param along, across, to_N the rate is L:(along d + across d_normal) + to_N N
-  !> @param rate      filled
-  !> @param bad       set to 1 where the stress or the void ratio is outside the domain or near its border
-  pure subroutine stress_rate(m, b, lanes, origin, y, along, across, to_N, rate, bad)
+  !> L and N at a node.
+  !> @param change of stress since the start of the step
+  !> @param length of strain since the start of the step
+  !> @param bad    set to 1 where the stress or the void ratio is outside the domain or near its border
+  pure subroutine tensors_at(m, b, lanes, origin, change, length, h, bad)
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
-    real(wp), intent(in) :: lanes(n_lanes, n_fields), y(width, 7), along(width), across(width), to_N(width)
+    real(wp), intent(in) :: lanes(n_lanes, n_fields), change(width, 6), length(width)
     type(origin_type), intent(in) :: origin
-    real(wp), intent(out) :: rate(width, 6)
+    type(tensors_type), intent(inout) :: h
     real(wp), intent(inout) :: bad(width)
-    type(geometry_type) :: g
+    type(pressure_type) :: p
     type(scalars_type) :: s
-    real(wp) :: z1, z2, z3, z4, z5, z6, f_s, identity, N, of_that, both, limit, f_b0, f_b0_by_e_i
-    integer :: i
+    call direction_of_stress(m, b, lanes, origin, change, h, p, bad)
+    call scalars(m, b, lanes, origin, length, p, s, bad)
+    call assemble(m, s, h)
+  end subroutine tensors_at
 
-    call direction_of_stress(m, origin, y, g, bad)
-    call scalars(m, b, lanes, origin, y, g, s, bad)
+  !> f_s and f_d; Eqs. (8) and (9).
+  pure subroutine assemble(m, s, h)
+    type(material_type), intent(in) :: m
+    type(scalars_type), intent(in) :: s
+    type(tensors_type), intent(inout) :: h
+    h%f_s = (m%f_b0 + m%f_b0 / m%e_i0 * s%growth) * h%inverse_square * s%f_e
+    h%f_d = s%f_d
+  end subroutine assemble
+
+  !> L:X + weight N; Eq. (10).
+  pure subroutine apply(m, h, x, weight, rate)
+    type(material_type), intent(in) :: m
+    type(tensors_type), intent(in) :: h
+    real(wp), intent(in) :: x(width, 6), weight(width)
+    real(wp), intent(out) :: rate(width, 6)
+    real(wp) :: limit, identity, N, both
+    integer :: i
     limit = m%a
-    f_b0 = m%f_b0
-    f_b0_by_e_i = f_b0 / m%e_i0
     !GCC$ ivdep
     do i = 1, width
-      f_s = (f_b0 + f_b0_by_e_i * s%growth(i)) * g%inverse_square(i) * s%f_e(i)
-      identity = f_s * g%F(i)**2
-      N = to_N(i) * f_s * s%f_d(i) * limit * g%F(i)
-      z1 = along(i) * lanes(b + i, l_along) + across(i) * lanes(b + i, l_across)
-      z2 = along(i) * lanes(b + i, l_along + 1) + across(i) * lanes(b + i, l_across + 1)
-      z3 = along(i) * lanes(b + i, l_along + 2) + across(i) * lanes(b + i, l_across + 2)
-      z4 = along(i) * lanes(b + i, l_along + 3) + across(i) * lanes(b + i, l_across + 3)
-      z5 = along(i) * lanes(b + i, l_along + 4) + across(i) * lanes(b + i, l_across + 4)
-      z6 = along(i) * lanes(b + i, l_along + 5) + across(i) * lanes(b + i, l_across + 5)
-      of_that = f_s * limit**2 * (g%that(i, 1) * z1 + g%that(i, 2) * z2 + g%that(i, 3) * z3 + &
-                                  2.0_wp * (g%that(i, 4) * z4 + g%that(i, 5) * z5 + g%that(i, 6) * z6))
-      both = of_that + 2.0_wp * N ! T*hat is That but for a third of the unit tensor
-      rate(i, 1) = identity * z1 + both * g%that(i, 1) - third * N
-      rate(i, 2) = identity * z2 + both * g%that(i, 2) - third * N
-      rate(i, 3) = identity * z3 + both * g%that(i, 3) - third * N
-      rate(i, 4) = identity * z4 + both * g%that(i, 4)
-      rate(i, 5) = identity * z5 + both * g%that(i, 5)
-      rate(i, 6) = identity * z6 + both * g%that(i, 6)
+      identity = h%f_s(i) * h%F(i)**2
+      N = weight(i) * h%f_s(i) * h%f_d(i) * limit * h%F(i)
+      both = h%f_s(i) * limit**2 * (h%that(i, 1) * x(i, 1) + h%that(i, 2) * x(i, 2) + h%that(i, 3) * x(i, 3) + &
+                                    2.0_wp * (h%that(i, 4) * x(i, 4) + h%that(i, 5) * x(i, 5) + h%that(i, 6) * x(i, 6)))
+      both = both + 2.0_wp * N ! T*hat is That but for a third of the unit tensor
+      rate(i, 1) = identity * x(i, 1) + both * h%that(i, 1) - third * N
+      rate(i, 2) = identity * x(i, 2) + both * h%that(i, 2) - third * N
+      rate(i, 3) = identity * x(i, 3) + both * h%that(i, 3) - third * N
+      rate(i, 4) = identity * x(i, 4) + both * h%that(i, 4)
+      rate(i, 5) = identity * x(i, 5) + both * h%that(i, 5)
+      rate(i, 6) = identity * x(i, 6) + both * h%that(i, 6)
     end do
-  end subroutine stress_rate
+  end subroutine apply
 
   !> That, F and what else belongs to the direction of stress; Eqs. (1) and (3) to (5). In units of the pressure at the
   !> origin, so that one division serves all.
-  pure subroutine direction_of_stress(m, origin, y, g, bad)
+  pure subroutine direction_of_stress(m, b, lanes, origin, change, h, p, bad)
     type(material_type), intent(in) :: m
+    integer, intent(in) :: b
+    real(wp), intent(in) :: lanes(n_lanes, n_fields), change(width, 6)
     type(origin_type), intent(in) :: origin
-    real(wp), intent(in) :: y(width, 7)
-    type(geometry_type), intent(out) :: g
+    type(tensors_type), intent(inout) :: h
+    type(pressure_type), intent(out) :: p
     real(wp), intent(inout) :: bad(width)
     real(wp) :: t1, t2, t3, t4, t5, t6, d1, d2, d3, per_p, ratio, square, cube, on_axis, limiting, size, of_ratio, of_both, &
                 quotient, by_ratio, by_both, inverse, inside, base, p_t, largest
@@ -151,12 +177,12 @@ contains
     !GCC$ ivdep
     do i = 1, width
       per_p = origin%inverse_pressure(i)
-      t1 = (p_t - y(i, 1)) * per_p
-      t2 = (p_t - y(i, 2)) * per_p
-      t3 = (p_t - y(i, 3)) * per_p
-      t4 = -y(i, 4) * per_p
-      t5 = -y(i, 5) * per_p
-      t6 = -y(i, 6) * per_p
+      t1 = (p_t - (lanes(b + i, l_stress) + change(i, 1))) * per_p
+      t2 = (p_t - (lanes(b + i, l_stress + 1) + change(i, 2))) * per_p
+      t3 = (p_t - (lanes(b + i, l_stress + 2) + change(i, 3))) * per_p
+      t4 = -(lanes(b + i, l_stress + 3) + change(i, 4)) * per_p
+      t5 = -(lanes(b + i, l_stress + 4) + change(i, 5)) * per_p
+      t6 = -(lanes(b + i, l_stress + 5) + change(i, 6)) * per_p
       ratio = t1 + t2 + t3
       d1 = t1 - third * ratio
       d2 = t2 - third * ratio
@@ -179,29 +205,29 @@ contains
       by_ratio = quotient * of_both
       by_both = quotient * of_ratio
       inverse = by_ratio * (1.0_wp + ratio)
-      g%ratio(i) = ratio
-      g%log_argument(i) = by_ratio * ratio * (ratio - 1.0_wp)
-      g%inverse_square(i) = ratio**2 * by_both * limiting
-      g%that(i, 1) = t1 * inverse
-      g%that(i, 2) = t2 * inverse
-      g%that(i, 3) = t3 * inverse
-      g%that(i, 4) = t4 * inverse
-      g%that(i, 5) = t5 * inverse
-      g%that(i, 6) = t6 * inverse
+      p%ratio(i) = ratio
+      p%log_argument(i) = by_ratio * ratio * (ratio - 1.0_wp)
+      h%inverse_square(i) = ratio**2 * by_both * limiting
+      h%that(i, 1) = t1 * inverse
+      h%that(i, 2) = t2 * inverse
+      h%that(i, 3) = t3 * inverse
+      h%that(i, 4) = t4 * inverse
+      h%that(i, 5) = t5 * inverse
+      h%that(i, 6) = t6 * inverse
       base = (2.0_wp - 3.0_wp * square * inverse**2) * (square + on_axis) * ratio * by_both * size
       square = 0.375_wp * square * inverse**2
-      g%F(i) = sqrt(max(base + square, 0.0_wp)) - sqrt(square)
+      h%F(i) = sqrt(max(base + square, 0.0_wp)) - sqrt(square)
     end do
   end subroutine direction_of_stress
 
   !> What pressure and void ratio alone decide, by series about the origin; Eqs. (6) to (8).
-  pure subroutine scalars(m, b, lanes, origin, y, g, s, bad)
+  pure subroutine scalars(m, b, lanes, origin, length, p, s, bad)
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
-    real(wp), intent(in) :: lanes(n_lanes, n_fields), y(width, 7)
+    real(wp), intent(in) :: lanes(n_lanes, n_fields), length(width)
     type(origin_type), intent(in) :: origin
-    type(geometry_type), intent(in) :: g
-    type(scalars_type), intent(out) :: s
+    type(pressure_type), intent(in) :: p
+    type(scalars_type), intent(inout) :: s
     real(wp), intent(inout) :: bad(width)
     real(wp) :: far(width) !< above 1 where the series do not reach
 real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, exponent, alpha, beta, e_d0, inverse_range
@@ -213,7 +239,7 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
     inverse_range = 1.0_wp / (m%e_c0 - e_d0)
     !GCC$ ivdep
     do i = 1, width
-      swell = lanes(b + i, l_trace) * (y(i, 7) - origin%done(i))
+      swell = lanes(b + i, l_trace) * length(i)
       change = origin%volume(i) * swell * (1.0_wp + swell * (1.0_wp / 2 + swell * (1.0_wp / 6 + swell * ( &
                                                          1.0_wp / 24 + swell * (1.0_wp / 120)))))
       e = origin%volume(i) - 1.0_wp + change
@@ -222,8 +248,8 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
       beyond = abs(change) * (1.0_wp / reach_of_volume)
       log_e = change * (1.0_wp - change * (1.0_wp / 2 - change * (third - change * ( &
                          1.0_wp / 4 - change * (1.0_wp / 5 - change * (1.0_wp / 6))))))
-      beyond = max(beyond, abs(g%log_argument(i)) * (1.0_wp / reach_of_log))
-      log_p = log_of_ratio(g%log_argument(i))
+      beyond = max(beyond, abs(p%log_argument(i)) * (1.0_wp / reach_of_log))
+      log_p = log_of_ratio(p%log_argument(i))
       power = origin%power(i) * exp_less_one(exponent * log_p)
       beyond = max(beyond, abs(power) * (1.0_wp / reach_of_power))
     s%growth(i) = origin%growth(i) * (1.0_wp + power * (1.0_wp + power * (1.0_wp / 2 + power * (1.0_wp / 6 + power * ( &
@@ -237,17 +263,17 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
       s%f_d(i) = origin%f_d(i) * (1.0_wp + exp_less_one(alpha * log_of_ratio(max(-reach_of_log, min(reach_of_log, argument)))))
       far(i) = beyond
     end do
-    if (any(far > 1.0_wp)) call scalars_in_full(m, b, lanes, origin, y, g, far, s, bad)
+    if (any(far > 1.0_wp)) call scalars_in_full(m, b, lanes, origin, length, p, far, s, bad)
   end subroutine scalars
 
   !> The same without series, for some lanes.
   !> @param far above 1 in lanes to be done
-  pure subroutine scalars_in_full(m, b, lanes, origin, y, g, far, s, bad)
+  pure subroutine scalars_in_full(m, b, lanes, origin, length, p, far, s, bad)
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
-    real(wp), intent(in) :: lanes(n_lanes, n_fields), y(width, 7), far(width)
+    real(wp), intent(in) :: lanes(n_lanes, n_fields), length(width), far(width)
     type(origin_type), intent(in) :: origin
-    type(geometry_type), intent(in) :: g
+    type(pressure_type), intent(in) :: p
     type(scalars_type), intent(inout) :: s
     real(wp), intent(inout) :: bad(width)
     real(wp) :: e, inside, log_p, power, growth, f_e, f_d, density, mask, h_s, e_c0, exponent, alpha, beta, e_d0, log_e_c0, &
@@ -264,11 +290,11 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
     !GCC$ ivdep
     do i = 1, width
       mask = merge(1.0_wp, 0.0_wp, far(i) > 1.0_wp)
-      e = (1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trace) * y(i, 7)) - 1.0_wp
+      e = origin%volume(i) * exp(lanes(b + i, l_trace) * length(i)) - 1.0_wp
       inside = merge(1.0_wp, 0.0_wp, min(e - smallest_void_ratio, largest_void_ratio - e) > 0.0_wp)
       bad(i) = max(bad(i), mask - inside)
       e = chosen(inside, e, e_c0)
-      log_p = log(g%ratio(i) / (origin%inverse_pressure(i) * h_s))
+      log_p = log(p%ratio(i) / (origin%inverse_pressure(i) * h_s))
       power = exp(exponent * log_p)
       growth = exp(power) ! every limiting void ratio is that of p = 0 divided by it
       ! Eqs. (7) to (9): f_e and the power of pressure in one exponential.

@@ -1,256 +1,445 @@
-!> One Dormand-Prince step of many material points side by side, one point per lane of the vector registers.
+!> One step of many material points side by side, one point per lane of the vector registers: step.f90 and collocation.f90.
 !>
-!> The formulas are those of update.f90, written without branches: what differs between points is selected, never jumped
-!> over, so that the compiler's vectoriser takes every loop over lanes. Arguments of logarithms and divisors are kept
-!> positive where a lane leaves the domain; such lanes are marked and done again by the scalar update. Powers are written as
-!> exp(y log(x)).
+!> The formulas are written without branches: what differs between points is selected, never jumped over, so that the
+!> compiler's vectoriser takes every loop over lanes. Arguments of logarithms and divisors are kept positive where a lane
+!> leaves the domain; such lanes are marked and done again by the scalar update.
 !>
 !> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_STEP).
 module HYPOFAB_BATCH_STEP
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use HYPOFAB_BATCH_PATH, only: node_type, path_end_type, place_nodes
-  use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, stress_rate
+  use HYPOFAB_BATCH_LINEAR, only: slopes_type, slopes_at, add_linear
+  use HYPOFAB_BATCH_PATH, only: node_type, path_node, carry_node
+  use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
+  use HYPOFAB_BATCH_REACH, only: nodes_type, reach
   use umat_batch_lanes
+  use umat_lobatto, only: rules, most_nodes, rule_short, rule_long
   use umat_material, only: material_type
-  use umat_tableau, only: n_stages, a, error_weight, share
+  use umat_step, only: least_share, most_share, most_sweeps, rounding, good_sweeps, least_growth, most_growth, safety, worth_trying, too_many_sweeps, &
+                       part_of_pressure
   implicit none
   private
   public :: attempt_step
 
   integer, parameter :: wp = real64
-  !> Stands for a speed of zero [strain].
-  real(wp), parameter :: slowest = 1.0e-30_wp
+  !> Exponent of theta in growth_after of step.f90.
+  integer, parameter :: order_of_sweeps = 2 * good_sweeps + 3
+
+  !> A step in work: rates at the nodes per unit of the step and the change of stress there.
+  type :: work_type
+    real(wp) :: frozen(width, 6, 0:most_nodes), f(width, 6, 0:most_nodes), u(width, 6, 0:most_nodes)
+    real(wp) :: d_void_ratio(width, 0:most_nodes)
+    real(wp) :: scale(width) !< |stress| at the start
+    real(wp) :: tolerance(width) !< what the step may use of it
+    real(wp) :: going(width) !< 1 while the step may still be accepted, otherwise 0
+    real(wp) :: growth(width) !< change of the step that its errors ask for
+    real(wp) :: left(width) !< what further sweeps would still change [stress]
+  end type work_type
 
 contains
 
   !> One step of every lane that is going: choose its size so that it ends with the segment or as the error control wants,
   !> do it, accept or refuse it.
-  !> @param n         number of lanes, a multiple of width
-  !> @param tolerance relative error per step, as in options_type
+  !> @param rule      the rule of all lanes here
+  !> @param first, n  lanes first + 1 to first + n, multiples of width
+  !> @param tolerance relative error, as in options_type
   !> @param lanes     outcome_going lanes are stepped; outcome says what became of them
-  pure subroutine attempt_step(m, tolerance, n, lanes, tags)
+  pure subroutine attempt_step(m, tolerance, rule, first, n, lanes, tags)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
-    integer, intent(in) :: n
+    integer, intent(in) :: rule, first, n
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
-    integer :: first
-    do first = 0, n - 1, width
-      call attempt_block(m, tolerance, first, lanes, tags)
+    integer :: b
+    do b = first, first + n - 1, width
+      call attempt_block(m, tolerance, rule, b, lanes, tags)
     end do
   end subroutine attempt_step
 
   !> The same for one block of lanes.
   !> @param b lanes b + 1 to b + width
-  pure subroutine attempt_block(m, tolerance, b, lanes, tags)
+  pure subroutine attempt_block(m, tolerance, rule, b, lanes, tags)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
-    integer, intent(in) :: b
+    integer, intent(in) :: rule, b
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
-    type(node_type) :: nodes(n_stages - 1) !< the last two stages share their node
-    type(path_end_type) :: goal
+    type(nodes_type) :: nodes
     type(origin_type) :: origin
-    real(wp) :: y(width, 7), k(width, 6, n_stages), to_along(width, n_stages - 1), to_across(width, n_stages - 1), &
-                to_N(width, n_stages - 1), bad(width), h(width)
-    real(wp) :: component, turning, through, m_T, m_R
-    integer(int64) :: tag
-    integer :: i, j, s, comp
+    type(slopes_type) :: slopes
+    type(work_type) :: w
+    real(wp) :: bad(width)
+    integer :: i
 
-    m_T = m%m_T
-    m_R = m%m_R
     bad = 0.0_wp
-    if (m%intergranular) then
-      call place_nodes(m, b, lanes, tags, nodes, goal, bad)
-      do s = 1, n_stages - 1
-        !GCC$ ivdep
-        do i = 1, width
-          tag = tags(b + i, t_kind)
-          component = nodes(s)%along(i) * nodes(s)%rho_chi(i) ! (deltahat:D) rho^chi
-          turning = nodes(s)%speed(i) * component * merge(m_R - m_T, 1.0_wp - m_T, tag == kind_straight)
-          to_along(i, s) = nodes(s)%speed(i) * (m_R + nodes(s)%rho_chi(i) * (m_T - m_R)) + turning * nodes(s)%along(i)
-          to_across(i, s) = turning * nodes(s)%across(i)
-          to_N(i, s) = nodes(s)%speed(i) * merge(0.0_wp, component, tag == kind_straight)
-        end do
-      end do
-    else
-      goal%short = 0.0_wp
-      !GCC$ ivdep
-      do i = 1, width
-        through = lanes(b + i, l_length) - lanes(b + i, l_done)
-        goal%last(i) = merge(1.0_wp, 0.0_wp, lanes(b + i, l_h) >= through)
-        lanes(b + i, l_h) = min(lanes(b + i, l_h), through)
-      end do
-      do s = 1, n_stages - 1
-        nodes(s)%speed = 1.0_wp
-        to_along(:, s) = 1.0_wp
-        to_across(:, s) = 0.0_wp
-        to_N(:, s) = 1.0_wp
-      end do
-    end if
-
-    call origin_of_step(m, b, lanes, origin)
-    h = lanes(b + 1:b + width, l_h)
-    do s = 1, n_stages
-      call stage_state(b, s, lanes, nodes, k, y)
-      j = min(s, n_stages - 1)
-      call stress_rate(m, b, lanes, origin, y, to_along(:, j), to_across(:, j), to_N(:, j), k(:, :, s), bad)
+    call reach(m, tolerance, rule, b, lanes, tags, nodes, bad)
+    call origin_of_step(m, b, lanes, origin, bad)
+    call slopes_at(m, origin, slopes)
+    !GCC$ ivdep
+    do i = 1, width
+      w%going(i) = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_going)
+      w%scale(i) = sqrt(max(nothing, (part_of_pressure / origin%inverse_pressure(i))**2, lanes(b + i, l_stress)**2 + lanes(b + i, l_stress + 1)**2 + lanes(b + i, l_stress + 2)**2 + &
+                            2.0_wp * (lanes(b + i, l_stress + 3)**2 + lanes(b + i, l_stress + 4)**2 + &
+                                      lanes(b + i, l_stress + 5)**2)))
+      w%tolerance(i) = tolerance * (least_share + (most_share - least_share) * &
+                                    min(1.0_wp, nodes%length(i, rules(rule)%n) / max(lanes(b + i, l_length), nothing)))
     end do
-    if (m%intergranular) then
-      do comp = 1, 6
-        !GCC$ ivdep
-        do i = 1, width
-          y(i, comp) = y(i, comp) + goal%short(i) / max(nodes(6)%speed(i), slowest) * k(i, comp, 7)
-        end do
-      end do
-    end if
-    call decide(m, tolerance, b, lanes, tags, k, nodes, y, goal, bad)
-    if (m%intergranular) call move_delta(m, b, lanes, tags, nodes(6), goal)
-    if (any(tags(b + 1:b + width, t_outcome) == outcome_segment_done)) then
-      !GCC$ ivdep
-      do i = 1, width
-lanes(b + i, l_e) = merge((1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trace) * lanes(b + i, l_length)) - 1.0_wp, &
-                                  lanes(b + i, l_e), tags(b + i, t_outcome) == outcome_segment_done)
-      end do
+    call predict(m, rule, b, lanes, origin, slopes, nodes, w)
+    call look(m, rule, b, tags, nodes, w)
+    if (any(w%going > half)) then
+      call sweeps(m, rule, b, lanes, origin, slopes, nodes, w, bad)
+      call decide(m, rule, b, lanes, tags, nodes, w, bad)
+    else
+      call refuse(rule, b, nodes, w, bad, lanes, tags)
     end if
   end subroutine attempt_block
 
-  !> Stress at a stage, and the length of strain done. Zeros of the tableau are left out by hand.
-  !> @param s stage
-  !> @param y stress, length
-  pure subroutine stage_state(b, s, lanes, nodes, k, y)
-    integer, intent(in) :: b, s
-    real(wp), intent(in) :: lanes(n_lanes, n_fields), k(width, 6, n_stages)
-    type(node_type), intent(in) :: nodes(n_stages - 1)
-    real(wp), intent(out) :: y(width, 7)
-    real(wp) :: total(width)
-    integer :: comp
-    do comp = 1, 6
-      select case (s)
-      case (1)
-        total = 0.0_wp
-      case (2)
-        total = a(1, 2) * k(:, comp, 1)
-      case (3)
-        total = a(1, 3) * k(:, comp, 1) + a(2, 3) * k(:, comp, 2)
-      case (4)
-        total = a(1, 4) * k(:, comp, 1) + a(2, 4) * k(:, comp, 2) + a(3, 4) * k(:, comp, 3)
-      case (5)
-        total = a(1, 5) * k(:, comp, 1) + a(2, 5) * k(:, comp, 2) + a(3, 5) * k(:, comp, 3) + a(4, 5) * k(:, comp, 4)
-      case (6)
-       total = a(1, 6) * k(:, comp, 1) + a(2, 6) * k(:, comp, 2) + a(3, 6) * k(:, comp, 3) + a(4, 6) * k(:, comp, 4) + &
-                a(5, 6) * k(:, comp, 5)
-      case default
-       total = a(1, 7) * k(:, comp, 1) + a(3, 7) * k(:, comp, 3) + a(4, 7) * k(:, comp, 4) + a(5, 7) * k(:, comp, 5) + &
-                a(6, 7) * k(:, comp, 6)
-      end select
-      y(:, comp) = lanes(b + 1:b + width, l_stress - 1 + comp) + lanes(b + 1:b + width, l_h) * total
-    end do
-    call length_done(a(:, s), 0.0_wp, nodes, total)
-    y(:, 7) = lanes(b + 1:b + width, l_done) + lanes(b + 1:b + width, l_h) * total
-  end subroutine stage_state
-
-  !> The weighted sum of the speeds at the nodes.
-  !> @param weights of the first six stages
-  !> @param seventh of the last, whose node is the sixth's
-  pure subroutine length_done(weights, seventh, nodes, total)
-    real(wp), intent(in) :: weights(6), seventh
-    type(node_type), intent(in) :: nodes(n_stages - 1)
-    real(wp), intent(out) :: total(width)
-    total = weights(1) * nodes(1)%speed + weights(2) * nodes(2)%speed + weights(3) * nodes(3)%speed + &
-            weights(4) * nodes(4)%speed + weights(5) * nodes(5)%speed + (weights(6) + seventh) * nodes(6)%speed
-  end subroutine length_done
-
-  !> Accept or refuse the step, and choose the next one's size.
-  !> @param y stress and length at the step's end
-  pure subroutine decide(m, tolerance, b, lanes, tags, k, nodes, y, goal, bad)
+  !> Predict the change of stress at the nodes, with the rate linear in stress and void ratio about the start of the step.
+  pure subroutine predict(m, rule, b, lanes, origin, slopes, nodes, w)
     type(material_type), intent(in) :: m
-    real(wp), intent(in) :: tolerance
-    integer, intent(in) :: b
-    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
-    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
-    real(wp), intent(in) :: k(width, 6, n_stages), y(width, 7), bad(width)
-    type(node_type), intent(in) :: nodes(n_stages - 1)
-    type(path_end_type), intent(in) :: goal
-    real(wp) :: off(width, 6), off_length(width), error(width), h, squares, before, after, relative, going, accepted, lost, &
-                per_tolerance, per_R
-    integer(int64) :: outcome
-    integer :: i, comp
-
-    do comp = 1, 6
-  off(:, comp) = error_weight(1) * k(:, comp, 1) + error_weight(3) * k(:, comp, 3) + error_weight(4) * k(:, comp, 4) + &
-                     error_weight(5) * k(:, comp, 5) + error_weight(6) * k(:, comp, 6) + error_weight(7) * k(:, comp, 7)
-    end do
-    call length_done(error_weight(:6), error_weight(7), nodes, off_length)
-    per_tolerance = 1.0_wp / (share * tolerance)
-    per_R = merge(1.0_wp / m%R, 0.0_wp, m%intergranular)
-    !GCC$ ivdep
-    do i = 1, width
-      h = lanes(b + i, l_h)
-      squares = off(i, 1)**2 + off(i, 2)**2 + off(i, 3)**2 + 2.0_wp * (off(i, 4)**2 + off(i, 5)**2 + off(i, 6)**2)
-      before = lanes(b + i, l_stress)**2 + lanes(b + i, l_stress + 1)**2 + lanes(b + i, l_stress + 2)**2 + &
-               2.0_wp * (lanes(b + i, l_stress + 3)**2 + lanes(b + i, l_stress + 4)**2 + lanes(b + i, l_stress + 5)**2)
-      after = y(i, 1)**2 + y(i, 2)**2 + y(i, 3)**2 + 2.0_wp * (y(i, 4)**2 + y(i, 5)**2 + y(i, 6)**2)
-      relative = h * per_tolerance * max(sqrt(squares / max(max(before, after), nothing)), abs(off_length(i)) * per_R)
-      error(i) = relative
-      going = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_going)
-      accepted = merge(going, 0.0_wp, relative <= 1.0_wp)
-      lost = bad(i) + merge(accepted, 0.0_wp, after < lanes(b + i, l_smallest)**2) + merge(0.0_wp, 1.0_wp, relative < 1.0e30_wp)
-      outcome = merge(outcome_segment_done, tags(b + i, t_outcome), accepted * goal%last(i) > half)
-      tags(b + i, t_outcome) = merge(outcome_special, outcome, going * lost > half)
-      lanes(b + i, l_evaluations) = lanes(b + i, l_evaluations) + going * (n_stages - 1)
-      lanes(b + i, l_refused) = lanes(b + i, l_refused) + going - accepted
-      lanes(b + i, l_x) = lanes(b + i, l_x) + accepted * h
-      lanes(b + i, l_done) = chosen(accepted, y(i, 7), lanes(b + i, l_done))
-      lanes(b + i, l_stress) = chosen(accepted, y(i, 1), lanes(b + i, l_stress))
-      lanes(b + i, l_stress + 1) = chosen(accepted, y(i, 2), lanes(b + i, l_stress + 1))
-      lanes(b + i, l_stress + 2) = chosen(accepted, y(i, 3), lanes(b + i, l_stress + 2))
-      lanes(b + i, l_stress + 3) = chosen(accepted, y(i, 4), lanes(b + i, l_stress + 3))
-      lanes(b + i, l_stress + 4) = chosen(accepted, y(i, 5), lanes(b + i, l_stress + 4))
-      lanes(b + i, l_stress + 5) = chosen(accepted, y(i, 6), lanes(b + i, l_stress + 5))
-    end do
-    if (.not. any(tags(b + 1:b + width, t_outcome) == outcome_going)) return
-    ! Where it goes on: the path at the next step's start, and its size.
-    !GCC$ ivdep
-    do i = 1, width
-      accepted = merge(merge(1.0_wp, 0.0_wp, error(i) <= 1.0_wp), 0.0_wp, tags(b + i, t_outcome) == outcome_going)
-      relative = max(0.2_wp, min(5.0_wp, 0.9_wp * exp(-0.2_wp * log(max(error(i), 1.0e-8_wp)))))
-      lanes(b + i, l_h) = lanes(b + i, l_h) * merge(relative, 1.0_wp, tags(b + i, t_outcome) == outcome_going)
-      if (.not. m%intergranular) cycle
-      lanes(b + i, l_speed) = chosen(accepted, nodes(6)%speed(i), lanes(b + i, l_speed))
-      lanes(b + i, l_node_along) = chosen(accepted, nodes(6)%along(i), lanes(b + i, l_node_along))
-      lanes(b + i, l_node_across) = chosen(accepted, nodes(6)%across(i), lanes(b + i, l_node_across))
-      lanes(b + i, l_rho_chi) = chosen(accepted, nodes(6)%rho_chi(i), lanes(b + i, l_rho_chi))
-      lanes(b + i, l_rho) = chosen(accepted, goal%rho(i), lanes(b + i, l_rho))
-      lanes(b + i, l_rho_beta) = chosen(accepted, goal%rho_beta(i), lanes(b + i, l_rho_beta))
-    end do
-  end subroutine decide
-
-  !> delta where the segment ends; Eq. (14) for what the step lacks of the length.
-  pure subroutine move_delta(m, b, lanes, tags, node, goal)
-    type(material_type), intent(in) :: m
-    integer, intent(in) :: b
-    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
-    integer(int64), intent(in) :: tags(n_lanes, n_tags)
-    type(node_type), intent(in) :: node
-    type(path_end_type), intent(in) :: goal
-    real(wp) :: along(width), across(width), size, R
-    integer :: i, comp
-    R = m%R
-    !GCC$ ivdep
-    do i = 1, width
-      size = R * goal%rho(i) - goal%rho_beta(i) * node%along(i) * goal%short(i)
-      along(i) = size * node%along(i) + goal%short(i)
-      across(i) = size * node%across(i)
-    end do
-    do comp = 0, 5
+    integer, intent(in) :: rule, b
+    real(wp), intent(in) :: lanes(n_lanes, n_fields)
+    type(origin_type), intent(in) :: origin
+    type(slopes_type), intent(in) :: slopes
+    type(nodes_type), intent(in) :: nodes
+    type(work_type), intent(inout) :: w
+    real(wp) :: swell
+    integer :: i, k
+    do k = 0, rules(rule)%n
+      call apply(m, origin%h, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k))
+      w%f(:, :, k) = w%frozen(:, :, k)
       !GCC$ ivdep
       do i = 1, width
-        lanes(b + i, l_delta + comp) = merge(along(i) * lanes(b + i, l_along + comp) + across(i) * lanes(b + i, l_across + comp), &
-                                           lanes(b + i, l_delta + comp), tags(b + i, t_outcome) == outcome_segment_done)
+        ! exp(swell) - 1 to the accuracy that a prediction deserves.
+        swell = lanes(b + i, l_trace) * nodes%length(i, k)
+     w%d_void_ratio(i, k) = origin%volume(i) * swell * (1.0_wp + swell * (1.0_wp / 2 + swell * (1.0_wp / 6 + swell * ( &
+                                                                            1.0_wp / 24 + swell * (1.0_wp / 120)))))
       end do
     end do
+    call integrate_to_nodes(rule, w)
+    do k = 1, rules(rule)%n
+      call add_linear(m, origin, slopes, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k), w%u(:, :, k), &
+                      w%d_void_ratio(:, k), w%f(:, :, k))
+    end do
+    call integrate_to_nodes(rule, w)
+  end subroutine predict
+
+  !> Integrals from the start of the step to its nodes.
+  pure subroutine integrate_to_nodes(rule, w)
+    integer, intent(in) :: rule
+    type(work_type), intent(inout) :: w
+    integer :: j, comp
+    w%u(:, :, 0) = 0.0_wp
+    do j = 1, rules(rule)%n
+      do comp = 1, 6
+        w%u(:, comp, j) = rules(rule)%a(0, j) * w%f(:, comp, 0) + rules(rule)%a(1, j) * w%f(:, comp, 1) + &
+                          rules(rule)%a(2, j) * w%f(:, comp, 2)
+        if (rule == rule_long) w%u(:, comp, j) = w%u(:, comp, j) + rules(rule)%a(3, j) * w%f(:, comp, 3) + &
+                                                 rules(rule)%a(4, j) * w%f(:, comp, 4)
+      end do
+    end do
+  end subroutine integrate_to_nodes
+
+  !> A first look at the prediction, which costs no evaluation of the rate: lanes that are not worth a sweep are stopped.
+  pure subroutine look(m, rule, b, tags, nodes, w)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: rule, b
+    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
+    type(nodes_type), intent(in) :: nodes
+    type(work_type), intent(inout) :: w
+    real(wp) :: theta(width), missing(width), too_short
+    integer :: i, n
+    n = rules(rule)%n
+    theta = size_of(w%u(:, :, n)) / w%scale
+    missing = missing_of(m, rule, nodes, w, theta, w%scale)
+    call growth_after(w%tolerance, rule, missing, theta, w%going, w%growth)
+    !GCC$ ivdep
+    do i = 1, width
+      too_short = merge(1.0_wp, 0.0_wp, rule == rule_short .and. missing(i) > w%tolerance(i))
+      w%growth(i) = chosen(too_short, 1.0_wp, w%growth(i))
+      tags(b + i, t_rule) = merge(int(rule_long, int64), tags(b + i, t_rule), too_short * w%going(i) > half)
+      w%going(i) = w%going(i) * (1.0_wp - too_short) * merge(1.0_wp, 0.0_wp, w%growth(i) >= worth_trying)
+    end do
+  end subroutine look
+
+  !> Sweeps until the corrections are small enough. Lanes that are settled stay as they are, so that no lane depends on its
+  !> neighbours.
+  pure subroutine sweeps(m, rule, b, lanes, origin, slopes, nodes, w, bad)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: rule, b
+    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
+    type(origin_type), intent(in) :: origin
+    type(slopes_type), intent(in) :: slopes
+    type(nodes_type), intent(in) :: nodes
+    type(work_type), intent(inout) :: w
+    real(wp), intent(inout) :: bad(width)
+    type(work_type) :: next
+    type(tensors_type) :: h
+    real(wp) :: active(width), previous(width), correction(width, 6, most_nodes), unchanged(width), change(width), final(width), &
+                outside(width), ratio, fails, settled
+    integer :: i, k, n, comp, round
+
+    n = rules(rule)%n
+    active = w%going
+    previous = huge(previous)
+    unchanged = 0.0_wp
+    w%left = 0.0_wp
+    next%f(:, :, 0) = w%f(:, :, 0)
+    do round = 1, most_sweeps
+      outside = 0.0_wp
+      do k = 1, n
+        call tensors_at(m, b, lanes, origin, w%u(:, :, k), nodes%length(:, k), h, outside)
+        call apply(m, h, nodes%x(:, :, k), nodes%weight(:, k), next%f(:, :, k))
+      end do
+      call integrate_to_nodes(rule, next)
+      do k = 1, n
+        correction(:, :, k) = next%u(:, :, k) - w%u(:, :, k)
+      call add_linear(m, origin, slopes, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k), correction(:, :, k), &
+                        unchanged, next%f(:, :, k))
+      end do
+      call integrate_to_nodes(rule, next)
+      correction(:, :, n) = next%u(:, :, n) - w%u(:, :, n)
+      change = size_of(correction(:, :, n))
+      final = size_of(next%u(:, :, n))
+      do k = 1, n
+        do comp = 1, 6
+          w%f(:, comp, k) = chosen(active, next%f(:, comp, k), w%f(:, comp, k))
+          w%u(:, comp, k) = chosen(active, next%u(:, comp, k), w%u(:, comp, k))
+        end do
+      end do
+      !GCC$ ivdep
+      do i = 1, width
+        bad(i) = max(bad(i), active(i) * outside(i))
+        lanes(b + i, l_evaluations) = lanes(b + i, l_evaluations) + active(i) * n
+        ratio = max(2.0_wp * change(i) / max(final(i), nothing), change(i) / previous(i))
+        w%left(i) = chosen(active(i), change(i) * min(1.0_wp, ratio), w%left(i))
+        fails = active(i) * merge(1.0_wp, 0.0_wp, min(ratio - 0.5_wp, w%left(i) - rounding * w%scale(i)) > 0.0_wp)
+       settled = active(i) * (1.0_wp - fails) * merge(1.0_wp, 0.0_wp, w%left(i) <= 0.5_wp * w%tolerance(i) * w%scale(i))
+        active(i) = active(i) - fails - settled
+        w%going(i) = w%going(i) - fails
+        w%growth(i) = chosen(fails, too_many_sweeps, w%growth(i))
+        previous(i) = max(change(i), nothing)
+      end do
+      if (.not. any(active > half)) exit
+    end do
+    w%going = w%going - active
+    w%growth = chosen(active, too_many_sweeps, w%growth)
+  end subroutine sweeps
+
+  !> Accept or refuse the step, and choose the next one's size.
+  pure subroutine decide(m, rule, b, lanes, tags, nodes, w, bad)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: rule, b
+    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
+    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
+    type(nodes_type), intent(in) :: nodes
+    type(work_type), intent(inout) :: w
+    real(wp), intent(inout) :: bad(width)
+    type(node_type) :: final
+    real(wp) :: stress(width, 6), theta(width), missing(width), growth(width), scale(width), accepted(width), done(width), after, &
+                fine, keeps, p_t
+    integer :: i, n, comp
+
+    n = rules(rule)%n
+    p_t = m%p_t
+    theta = size_of(w%u(:, :, n)) / w%scale
+    do comp = 1, 6
+      stress(:, comp) = lanes(b + 1:b + width, l_stress - 1 + comp) + w%u(:, comp, n)
+    end do
+    scale = max(w%scale, size_of(stress))
+    missing = missing_of(m, rule, nodes, w, theta, scale)
+    call growth_after(w%tolerance, rule, missing, theta, w%going, growth)
+    do comp = 1, 6
+      stress(:, comp) = stress(:, comp) + (nodes%end - 1.0_wp) * w%f(:, comp, n)
+    end do
+    !GCC$ ivdep
+    do i = 1, width
+      fine = w%going(i) * merge(1.0_wp, 0.0_wp, missing(i) + w%left(i) / scale(i) <= w%tolerance(i))
+      after = stress(i, 1)**2 + stress(i, 2)**2 + stress(i, 3)**2 + &
+              2.0_wp * (stress(i, 4)**2 + stress(i, 5)**2 + stress(i, 6)**2)
+      done(i) = fine * nodes%last(i)
+      ! What falls so far, and what is at the border, is for the scalar update.
+      keeps = merge(1.0_wp, 0.0_wp, after >= lanes(b + i, l_smallest)**2)
+      bad(i) = max(bad(i), fine * (1.0_wp - keeps), fine * outside_domain(stress(i, 1) - p_t, stress(i, 2) - p_t, &
+                                                                       stress(i, 3) - p_t, stress(i, 4), stress(i, 5), &
+                                                                          stress(i, 6)))
+      growth(i) = chosen(fine, growth(i), merge(1.0_wp, min(growth(i), 0.9_wp), rule == rule_short))
+      w%growth(i) = chosen(w%going(i), growth(i), w%growth(i))
+      tags(b + i, t_rule) = merge(int(rule_long, int64), tags(b + i, t_rule), w%going(i) - fine > half)
+      accepted(i) = fine * merge(0.0_wp, 1.0_wp, bad(i) > half)
+      lanes(b + i, l_stress) = chosen(accepted(i), stress(i, 1), lanes(b + i, l_stress))
+      lanes(b + i, l_stress + 1) = chosen(accepted(i), stress(i, 2), lanes(b + i, l_stress + 1))
+      lanes(b + i, l_stress + 2) = chosen(accepted(i), stress(i, 3), lanes(b + i, l_stress + 2))
+      lanes(b + i, l_stress + 3) = chosen(accepted(i), stress(i, 4), lanes(b + i, l_stress + 3))
+      lanes(b + i, l_stress + 4) = chosen(accepted(i), stress(i, 5), lanes(b + i, l_stress + 4))
+      lanes(b + i, l_stress + 5) = chosen(accepted(i), stress(i, 6), lanes(b + i, l_stress + 5))
+    end do
+    if (any(done > half)) then
+      if (m%intergranular) then
+        call path_node(m, b, lanes, tags, nodes%end, final)
+        call move_delta(m, b, done, final, lanes)
+      end if
+      !GCC$ ivdep
+      do i = 1, width
+        after = (1.0_wp + lanes(b + i, l_e)) * exp(lanes(b + i, l_trace) * lanes(b + i, l_length)) - 1.0_wp
+        lanes(b + i, l_e) = chosen(done(i), after, lanes(b + i, l_e))
+        tags(b + i, t_outcome) = merge(outcome_segment_done, tags(b + i, t_outcome), done(i) > half)
+      end do
+    end if
+    w%going = accepted - done
+    if (any(w%going > half)) then
+      !GCC$ ivdep
+      do i = 1, width
+        lanes(b + i, l_evaluations) = lanes(b + i, l_evaluations) + w%going(i)
+        lanes(b + i, l_x) = lanes(b + i, l_x) + w%going(i) * lanes(b + i, l_h)
+        lanes(b + i, l_done) = lanes(b + i, l_done) + w%going(i) * nodes%length(i, n)
+      end do
+      if (m%intergranular) call carry_node(b, nodes%point(n), w%going, lanes)
+    end if
+    call refuse(rule, b, nodes, w, bad, lanes, tags)
+  end subroutine decide
+
+  !> The next step of lanes that are not done; lanes that the scalar update must do.
+  !> @param w going is 1 where a step was accepted
+  pure subroutine refuse(rule, b, nodes, w, bad, lanes, tags)
+    integer, intent(in) :: rule, b
+    type(nodes_type), intent(in) :: nodes
+    type(work_type), intent(in) :: w
+    real(wp), intent(in) :: bad(width)
+    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
+    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
+    real(wp) :: goes_on
+    integer :: i, n
+    n = rules(rule)%n
+    !GCC$ ivdep
+    do i = 1, width
+      goes_on = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_going)
+      lanes(b + i, l_refused) = lanes(b + i, l_refused) + goes_on * (1.0_wp - w%going(i))
+      lanes(b + i, l_wanted) = chosen(goes_on, w%growth(i) * nodes%length(i, n), lanes(b + i, l_wanted))
+      lanes(b + i, l_h) = lanes(b + i, l_h) * chosen(goes_on, w%growth(i), 1.0_wp)
+      tags(b + i, t_outcome) = merge(outcome_special, tags(b + i, t_outcome), bad(i) > half)
+    end do
+  end subroutine refuse
+
+  !> delta where the segment ends.
+  pure subroutine move_delta(m, b, done, final, lanes)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: b
+    real(wp), intent(in) :: done(width)
+    type(node_type), intent(in) :: final
+    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
+    real(wp) :: along(width), across(width)
+    integer :: comp
+    along = m%R * final%rho * final%along
+    across = m%R * final%rho * final%across
+    do comp = 0, 5
+      lanes(b + 1:b + width, l_delta + comp) = chosen(done, along * lanes(b + 1:b + width, l_along + comp) + &
+                                                      across * lanes(b + 1:b + width, l_across + comp), &
+                                                      lanes(b + 1:b + width, l_delta + comp))
+    end do
   end subroutine move_delta
+
+  !> 1 outside the domain or close to its border, otherwise 0; of T - p_t 1.
+  elemental function outside_domain(t1, t2, t3, t4, t5, t6) result(outside)
+    real(wp), intent(in) :: t1, t2, t3, t4, t5, t6
+    real(wp) :: outside
+    real(wp) :: pressure, second, third
+    real(wp), parameter :: margin = 1.0e-12_wp
+    pressure = -(t1 + t2 + t3)
+    second = t1 * t2 + t2 * t3 + t3 * t1 - t4 * t4 - t5 * t5 - t6 * t6
+    third = -(t1 * (t2 * t3 - t6 * t6) - t4 * (t4 * t3 - t5 * t6) + t5 * (t4 * t6 - t5 * t2))
+    outside = merge(0.0_wp, 1.0_wp, min(pressure, second - margin * pressure**2, third - margin * pressure**3) > 0.0_wp)
+  end function outside_domain
+
+  !> What the nodes leave out, of the change of stress relative to a size and of the length of strain relative to R.
+  pure function missing_of(m, rule, nodes, w, coupling, scale) result(missing)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: rule
+    type(nodes_type), intent(in) :: nodes
+    type(work_type), intent(in) :: w
+    real(wp), intent(in) :: coupling(width), scale(width)
+    real(wp) :: missing(width)
+    real(wp) :: mode(width, 6), modes(width, 0:2), none(width)
+    integer :: comp, i
+    do i = 0, 2
+      do comp = 1, 6
+        mode(:, comp) = mode_of(rule, i, w%f(:, comp, :))
+      end do
+      modes(:, i) = size_of(mode)
+    end do
+    missing = tail(rule, modes, coupling) / scale
+    if (.not. m%intergranular) return
+    none = 0.0_wp
+    ! Where the path measures length nothing is missing: the strain is the same at all nodes.
+    do i = 0, 2
+      modes(:, i) = abs(mode_of(rule, i, nodes%strain))
+    end do
+    missing = max(missing, tail(rule, modes, none) * (1.0_wp / m%R))
+  end function missing_of
+
+  !> A coefficient of the polynomial through values at the nodes.
+  !> @param i as in lobatto_type
+  pure function mode_of(rule, i, f) result(mode)
+    integer, intent(in) :: rule, i
+    real(wp), intent(in) :: f(width, 0:most_nodes)
+    real(wp) :: mode(width)
+    mode = rules(rule)%mode(0, i) * f(:, 0) + rules(rule)%mode(1, i) * f(:, 1) + rules(rule)%mode(2, i) * f(:, 2)
+    if (rule == rule_long) mode = mode + rules(rule)%mode(3, i) * f(:, 3) + rules(rule)%mode(4, i) * f(:, 4)
+  end function mode_of
+
+  !> As tail in collocation.f90.
+  pure function tail(rule, modes, coupling) result(missing)
+    integer, intent(in) :: rule
+    real(wp), intent(in) :: modes(width, 0:2), coupling(width)
+    real(wp) :: missing(width)
+    real(wp) :: ratio, to_next
+    integer :: i
+    !GCC$ ivdep
+    do i = 1, width
+      ratio = sqrt(min(1.0_wp, modes(i, 0) / max(modes(i, 2), nothing)))
+      if (rule == rule_short) then
+        ! As in collocation.f90, a fall to the mean says little.
+        to_next = min(1.0_wp, modes(i, 0) / max(modes(i, 1), nothing))
+        ratio = merge(to_next, ratio, modes(i, 0) > ratio * modes(i, 1))
+        missing(i) = modes(i, 0) * ratio * max(ratio, coupling(i))
+      else
+        missing(i) = modes(i, 0) * ratio * max(ratio**2, coupling(i))
+      end if
+    end do
+  end function tail
+
+  !> Size of a tensor in every lane.
+  pure function size_of(t) result(size)
+    real(wp), intent(in) :: t(width, 6)
+    real(wp) :: size(width)
+    size = sqrt(t(:, 1)**2 + t(:, 2)**2 + t(:, 3)**2 + 2.0_wp * (t(:, 4)**2 + t(:, 5)**2 + t(:, 6)**2))
+  end function size_of
+
+  !> As growth_after in step.f90. Powers are taken only where a lane asks for another size.
+  !> @param asked 1 in lanes that matter
+  pure subroutine growth_after(tolerance, rule, missing, theta, asked, growth)
+    real(wp), intent(in) :: tolerance(width), missing(width), theta(width), asked(width)
+    integer, intent(in) :: rule
+    real(wp), intent(out) :: growth(width)
+    real(wp) :: error, sweeping, bound, order, needed(width)
+    integer :: i
+    order = rules(rule)%n + 3
+    bound = (safety / most_growth)**(rules(rule)%n + 3)
+    growth = most_growth
+    !GCC$ ivdep
+    do i = 1, width
+      error = missing(i) / tolerance(i)
+      sweeping = 0.5_wp * theta(i)**order_of_sweeps / tolerance(i)
+      needed(i) = asked(i) * merge(1.0_wp, 0.0_wp, max(error - bound, sweeping - (safety / most_growth)**order_of_sweeps) > 0.0_wp)
+    end do
+    if (.not. any(needed > half)) return
+    !GCC$ ivdep
+    do i = 1, width
+      error = max(bound, missing(i) / tolerance(i))
+      sweeping = max((safety / most_growth)**order_of_sweeps, 0.5_wp * theta(i)**order_of_sweeps / tolerance(i))
+      error = max(least_growth, safety * exp(-max(log(error) / order, log(sweeping) * (1.0_wp / order_of_sweeps))))
+      growth(i) = chosen(needed(i), min(most_growth, error), most_growth)
+    end do
+  end subroutine growth_after
 
   include 'batch_series.inc'
 

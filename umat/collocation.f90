@@ -202,7 +202,10 @@ contains
     ratio = 1.0_wp
     if (modes(0) < modes(2)) ratio = sqrt(modes(0) / modes(2))
     ! Three nodes: mode 0 is the mean, which says little about how the others fall.
-    if (n == 2 .and. modes(0) > ratio * modes(1)) ratio = min(1.0_wp, modes(0) / max(modes(1), tiny(ratio)))
+    if (n == 2 .and. modes(0) > ratio * modes(1)) then
+      ratio = 1.0_wp
+      if (modes(0) < modes(1)) ratio = modes(0) / modes(1)
+    end if
     missing = modes(0) * ratio * max(ratio**(n / 2), coupling)
   end function tail
 

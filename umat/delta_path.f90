@@ -22,14 +22,14 @@ module umat_delta_path
   use umat_tensor, only: ddot, norm, multiplicity
   implicit none
   private
-  public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, first_guess, measures_length, kappa_slope
+ public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, first_guess, measures_length, kappa_slope
   public :: delta_influence
 
   !> Below this v, Eq. (20) cancels more digits than the limit v = 0 leaves out.
   real(wp), parameter :: on_axis = sqrt(epsilon(1.0_wp))
 
   !> k of the axis.
-  integer, parameter :: axis_power = 4
+  integer, parameter, public :: axis_power = 4
 
   integer, parameter :: kind_fixed = 0, kind_straight = 1, kind_axis = 2, kind_plane = 3
 
@@ -180,7 +180,7 @@ contains
       slope = point%speed * path%kappa * point%sine_beta * point%rho_beta * point%cosine
     else
       ! The axis has its origin at delta = 0, where the speed vanishes; rho grows by less than length/R.
-      h = -log(1.0_wp - min(0.9_wp, path%u + length / m%R)**(1.0_wp / axis_power)) - path%start
+      h = -log(1.0_wp - min(0.9_wp, path%u + (path%turn + length) / m%R)**(1.0_wp / axis_power)) - path%start
       if (.not. h > 0.0_wp) h = huge(h)
       if (.not. point%rho_beta > 0.0_wp) return
       slope = point%speed * (axis_power - 1) * exp(-path%start) / (1.0_wp - exp(-path%start))

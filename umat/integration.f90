@@ -14,6 +14,8 @@ module umat_integration
   implicit none
   private
   public :: options_type, report_type, integrate
+  ! For many points side by side (batch_begin.F90).
+  public :: vanishing, step_of_R, short_of_R, short_plain, nearly
 
   !> Options of an update.
   type :: options_type

@@ -13,6 +13,9 @@ module umat_step
   implicit none
   private
   public :: step_type, reach, try
+  ! The update of many points side by side (batch_step.F90) takes the same steps.
+  public :: least_share, most_share, most_sweeps, good_sweeps, rounding, close_enough, worth_trying, too_many_sweeps
+  public :: least_growth, most_growth, safety, most_trials, most_interpolations, part_of_pressure
 
   !> A step and where it stands.
   type :: step_type
@@ -34,6 +37,15 @@ module umat_step
   real(wp), parameter :: least_share = 0.05_wp, most_share = 0.5_wp
   !> Sweeps tried before the step is shortened, and the number that a step of good size needs.
   integer, parameter :: most_sweeps = 5, good_sweeps = 2
+  !> Trials of the length of a last step, and how many of them go by interpolation, the others by Newton's method.
+  integer, parameter :: most_trials = 12, most_interpolations = 3
+  !> Part of -tr(T - p_t 1) below which the size of the stress says nothing; below 1/sqrt(3), so that it acts with p_t alone.
+  real(wp), parameter :: part_of_pressure = 0.5_wp
+  !> A step whose prediction asks for less than this part of it is not tried; one that needs more sweeps is shortened to
+  !> this part.
+  real(wp), parameter :: worth_trying = 0.7_wp, too_many_sweeps = 0.4_wp
+  !> Bounds of the change of a step, and the part of it that is taken.
+  real(wp), parameter :: least_growth = 0.1_wp, most_growth = 5.0_wp, safety = 0.9_wp
   !> A correction of this part of the stress is rounding: nothing can be told from how it compares with the one before.
   real(wp), parameter :: rounding = 1.0e2_wp * epsilon(1.0_wp)
   !> Where a last step ends may be off the last node by this part of the root of the tolerance: an Euler step makes up for it,
@@ -51,7 +63,6 @@ contains
     type(step_type), intent(inout) :: step
     real(wp) :: ahead, covered
     integer :: i
-    integer, parameter :: most_trials = 10
     ahead = leg%length - step%done
     step%end = 1.0_wp
     if (measures_length(leg%path)) then
@@ -71,7 +82,12 @@ contains
           step%end = 1.0_wp + (ahead - covered) / step%nodes%strain(n)
           return
         end if
-        step%h = step%h * place_of(rules(step%rule)%c(:n), step%nodes%length(:n), ahead)
+        ! Next to delta = 0, where the length grows like the fourth power, interpolation may run in circles.
+        if (i <= most_interpolations) then
+          step%h = step%h * place_of(rules(step%rule)%c(:n), step%nodes%length(:n), ahead)
+        else
+          step%h = step%h * max(0.1_wp, min(2.0_wp, 1.0_wp + (ahead - covered) / step%nodes%strain(n)))
+        end if
       end associate
     end do
     ! No smooth path: go on with a step that surely ends before the leg does, for the speed grows along a path.
@@ -126,7 +142,7 @@ contains
     accepted = .false.
     n = rules(step%rule)%n
     tolerance = tolerance_of(leg, step)
-    scale = norm(step%start%stress)
+    scale = size_of(step%start)
     call prediction(m, rules(step%rule), step%nodes, step%start, by_stress, f, u)
     ! A first look that costs no evaluation of the rate.
     theta = norm(u(:, n)) / scale
@@ -138,7 +154,7 @@ contains
       return
     end if
     growth = growth_after(missing, theta, tolerance, n)
-    if (growth < 0.7_wp) return
+    if (growth < worth_trying) return
 
     call sweeps(m, leg, step, by_stress, tensors, f, u, left, growth)
     if (growth < 1.0_wp) return
@@ -184,7 +200,7 @@ contains
     real(wp) :: scale, change, previous, ratio
     integer :: i, n, status
     n = rules(step%rule)%n
-    scale = norm(step%start%stress)
+    scale = size_of(step%start)
     previous = huge(previous)
     left = previous
     do i = 1, most_sweeps
@@ -195,7 +211,7 @@ contains
         step%obstacle = status
         return
       end if
-      growth = 0.4_wp
+      growth = too_many_sweeps
       ! The prediction is off by terms of third order in the change of stress, and so a sweep gains twice that, relatively.
       ratio = max(2.0_wp * change / max(norm(u(:, n)), tiny(ratio)), change / previous)
       left = change * min(1.0_wp, ratio)
@@ -204,11 +220,19 @@ contains
         growth = 1.0_wp
         ! The tangent is taken at the stress before the last correction.
         if (.not. leg%with_tangent .or. change <= leg%tolerance * scale) return
-        growth = 0.4_wp
+        growth = too_many_sweeps
       end if
       previous = change
     end do
   end subroutine sweeps
+
+  !> Size of the stress at the start, to which errors are relative [stress]. Where p_t holds a stress near zero, the pressure
+  !> that the model sees.
+  pure function size_of(start) result(scale)
+    type(start_type), intent(in) :: start
+    real(wp) :: scale
+    scale = max(norm(start%stress), part_of_pressure * start%h%pressure)
+  end function size_of
 
   !> What a step may use of the tolerance.
   pure function tolerance_of(leg, step) result(tolerance)
@@ -249,9 +273,8 @@ contains
     real(wp), intent(in) :: error
     integer, intent(in) :: order
     real(wp) :: growth
-    real(wp), parameter :: least = 0.1_wp, most = 5.0_wp, safety = 0.9_wp
-    growth = most
-    if (error > (safety / most)**order) growth = max(least, safety * error**(-1.0_wp / order))
+    growth = most_growth
+    if (error > (safety / most_growth)**order) growth = max(least_growth, safety * error**(-1.0_wp / order))
   end function growth_of
 
 end module umat_step

@@ -9,7 +9,8 @@
 module umat_vumat
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_int, c_ptr
-  use umat_host_state, only: n_statev, sv_evaluations, sv_substep, tensor_from_host, unpack_state, pack_stress, pack_statev, &
+  use umat_block, only: update_block, largest_block
+  use umat_host_state, only: n_statev, sv_evaluations, tensor_from_host, unpack_state, pack_stress, pack_statev, &
                              swap_shear
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, check_props, parameters, n_parameters, i_phi_c, i_n, &
@@ -17,7 +18,7 @@ module umat_vumat
   use umat_rate, only: state_type
   use umat_status, only: status_ok, status_bad_state, status_bad_argument
   use umat_tensor, only: multiplicity, trace, unit_tensor
-  use umat_update, only: options_type, report_type, update_state
+  use umat_update, only: report_type
   implicit none
   private
   public :: vumat
@@ -68,7 +69,7 @@ contains
     type(c_ptr), value :: temp_old, stretch_old, defgrad_old, field_old, temp_new, stretch_new, defgrad_new, field_new
     type(block_type) :: b
     type(material_type) :: m
-    integer :: i, status, status_of_all
+    integer :: i, status_of_all
     logical :: single
 
     single = is_single(props, nprops)
@@ -87,11 +88,8 @@ contains
 
     call read_material(view_of(props, 1, nprops, single), nprops, m, status_of_all)
     if (ndir /= 3 .or. .not. any(nshr == [1, 3]) .or. nstatev < n_statev) status_of_all = status_bad_argument
-    do i = 1, nblock
-      call keep_point(b, i)
-      status = status_of_all
-      if (status == status_ok) call advance_point(m, b, i, status)
-      if (status /= status_ok) call mark_point(b, i, status)
+    do i = 1, nblock, largest_block
+      call advance_points(m, b, i, min(nblock - i + 1, largest_block), status_of_all)
     end do
 
   contains
@@ -177,24 +175,69 @@ contains
     if (b%n_statev >= sv_dropped) call put(b%state_new, i, sv_dropped, get(b%state_old, i, sv_dropped) + 1.0_wp)
   end subroutine mark_point
 
-  !> Integrate the increment of one point and write its new values; nothing is written on failure.
-  !> @param m      material
-  !> @param b      block
-  !> @param i      point
-  !> @param status status_ok, status_bad_state where the old state is not finite, or that of update_state
-  subroutine advance_point(m, b, i, status)
+  !> Integrate the increments of some points and write their new values; those of a point that fails are its old ones.
+  !> @param m             material
+  !> @param b             block
+  !> @param first, n      points first to first + n - 1, up to largest_block
+  !> @param status_of_all status_ok, or what is wrong with every point
+  subroutine advance_points(m, b, first, n, status_of_all)
+    type(material_type), intent(in) :: m
+    type(block_type), intent(in) :: b
+    integer, intent(in) :: first, n, status_of_all
+    real(wp), dimension(largest_block, 6) :: stress, delta, strain
+    real(wp) :: void_ratio(largest_block), pore_pressure(largest_block)
+    integer :: point(largest_block), status(largest_block), evaluations(largest_block)
+    type(state_type) :: state
+    type(report_type) :: report
+    real(wp) :: increment(6)
+    integer :: i, k, count, one
+
+    count = 0
+    do i = first, first + n - 1
+      call keep_point(b, i)
+      one = status_of_all
+      if (one == status_ok) call read_point(m, b, i, state, increment, pore_pressure(count + 1), one)
+      if (one /= status_ok) then
+        call mark_point(b, i, one)
+        cycle
+      end if
+      count = count + 1
+      point(count) = i
+      stress(count, :) = state%stress
+      delta(count, :) = state%delta
+      void_ratio(count) = state%void_ratio
+      strain(count, :) = increment
+    end do
+    if (count == 0) return
+    call update_block(m, count, stress, delta, void_ratio, strain, status, evaluations)
+    do k = 1, count
+      if (status(k) /= status_ok) then
+        call mark_point(b, point(k), status(k))
+        cycle
+      end if
+      state = state_type(stress(k, :), delta(k, :), void_ratio(k))
+      report%evaluations = evaluations(k)
+      increment = strain(k, :)
+      call write_point(m, b, point(k), state, increment, pore_pressure(k) - m%K_w * trace(increment), report)
+    end do
+  end subroutine advance_points
+
+  !> The state and strain increment of a point.
+  !> @param status status_ok, or status_bad_state where the old state is not finite
+  subroutine read_point(m, b, i, state, strain, pore_pressure, status)
     type(material_type), intent(in) :: m
     type(block_type), intent(in) :: b
     integer, intent(in) :: i
+    type(state_type), intent(out) :: state
+    real(wp), intent(out) :: strain(6), pore_pressure
     integer, intent(out) :: status
-    type(state_type) :: state
-    type(report_type) :: report
-    real(wp) :: old_stress(6), new_stress(6), increment(6), old_statev(n_statev), strain(6), pore_pressure, density
-    real(c_double) :: stress(6), statev(n_statev)
+    real(wp) :: old_stress(6), increment(6), old_statev(n_statev)
     integer :: n
 
     status = status_bad_state
     n = b%n_components
+    strain = 0.0_wp
+    pore_pressure = 0.0_wp
     call get_row(b%stress_old, i, old_stress(:n))
     call get_row(b%strain_inc, i, increment(:n))
     call get_row(b%state_old, i, old_statev)
@@ -204,24 +247,39 @@ contains
     call swap_shear(increment(:n))
     call unpack_state(m, old_stress(:n), old_statev, state, pore_pressure)
     strain = tensor_from_host(increment(:n), 1.0_wp)
-    call update_state(m, options_type(), state, strain, report, status)
-    if (status /= status_ok) return
+    status = status_ok
+  end subroutine read_point
 
-    pore_pressure = pore_pressure - m%K_w * trace(strain)
-    statev = real(old_statev, c_double)
-    call pack_statev(m, state, pore_pressure, report, statev)
-    call put_row(b%state_new, i, real(statev, wp))
-    call pack_stress(state%stress - pore_pressure * unit_tensor, stress(:n))
-    new_stress(:n) = real(stress(:n), wp)
+  !> The new values of a point, and its energy by the stress power.
+  subroutine write_point(m, b, i, state, strain, pore_pressure, report)
+    type(material_type), intent(in) :: m
+    type(block_type), intent(in) :: b
+    integer, intent(in) :: i
+    type(state_type), intent(in) :: state
+    real(wp), intent(in) :: strain(6), pore_pressure
+    type(report_type), intent(in) :: report
+    real(wp) :: old_stress(6), new_stress(6), statev(n_statev), density
+    real(c_double) :: packed_stress(6), packed_statev(n_statev)
+    integer :: n
+
+    n = b%n_components
+    call get_row(b%stress_old, i, old_stress(:n))
+    call swap_shear(old_stress(:n))
+    call get_row(b%state_old, i, statev)
+    packed_statev = real(statev, c_double)
+    call pack_statev(m, state, pore_pressure, report, packed_statev)
+    call put_row(b%state_new, i, real(packed_statev, wp))
+    call pack_stress(state%stress - pore_pressure * unit_tensor, packed_stress(:n))
+    new_stress(:n) = real(packed_stress(:n), wp)
     density = get(b%density, i, 1)
     if (ieee_is_finite(density)) then
       ! Stress power by the trapezium rule; multiplicity counts tensor shear twice.
       if (density > 0.0_wp) call put(b%intern_new, i, 1, get(b%intern_old, i, 1) + 0.5_wp / density * &
-                                     sum(multiplicity(:n) * (old_stress(:n) + new_stress(:n)) * increment(:n)))
+                                     sum(multiplicity(:n) * (old_stress(:n) + new_stress(:n)) * strain(:n)))
     end if
     call swap_shear(new_stress(:n))
     call put_row(b%stress_new, i, new_stress(:n))
-  end subroutine advance_point
+  end subroutine write_point
 
   !> An array of the host.
   !> @param address       may be null

@@ -40,7 +40,7 @@ module umat_wolffersdorff
   real(wp), parameter :: smallest_void_ratio = 1.0e-3_wp, largest_void_ratio = 100.0_wp, largest_pressure = 10.0_wp
 
   !> Below this size T*hat is rounding, and its direction means nothing.
-  real(wp), parameter :: isotropic = 1.0e3_wp * epsilon(1.0_wp)
+  real(wp), parameter, public :: isotropic = 1.0e3_wp * epsilon(1.0_wp)
 
 contains
 

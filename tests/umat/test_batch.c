@@ -150,9 +150,10 @@ static void test_equal_to_scalar(void **unused) {
     const int max_evaluations = 20000;
     for (int instructions = 0; instructions < n_instruction_sets(); instructions++) {
       cloud *after = copy(before);
-      int64_t evaluations = 0, scalar = 0;
+      int64_t scalar = 0;
+      int evaluations[STRIDE];
       hypofab_update_points(&after->material, &tolerance, &max_evaluations, instructions, after->n, STRIDE,
-                            after->stress, after->delta, after->void_ratio, after->strain, after->status, &evaluations,
+                            after->stress, after->delta, after->void_ratio, after->strain, after->status, evaluations,
                             &scalar);
       for (int i = 0; i < after->n; i++) {
         const double d = difference_from_scalar(before, after, i, &options);
