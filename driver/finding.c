@@ -42,11 +42,14 @@ hypofab_status finding_explain(const run *r, const hypofab_step *step, hypofab_s
     status = HYPOFAB_LIQUEFACTION;
   char reason[HYPOFAB_MESSAGE_SIZE / 2], prefix[32];
   snprintf(prefix, sizeof prefix, "step %d: ", r->step_number + 1);
+  const char *message = hypofab_last_message(), *text = hypofab_status_text(status);
+  if (strncmp(message, prefix, strlen(prefix)) == 0) message += strlen(prefix);
+  const int name = strchr(text, ':') ? (int)strcspn(text, ":") + 2 : 0; /* "loss of controllability: ..." */
   if (status == HYPOFAB_LIQUEFACTION)
-    snprintf(reason, sizeof reason, "liquefaction: p fell from %.6g to %.3g at constant volume", r->observer.p, p);
+    snprintf(reason, sizeof reason, "%.*sp fell from %.6g to %.3g at constant volume", name, text, r->observer.p, p);
   else
-    snprintf(reason, sizeof reason, "%s", hypofab_last_message());
+    snprintf(reason, sizeof reason, "%.*s%s", name, text, message);
   return hypofab_fail(status, "%s%s; at time %.9g, p = %.6g, q = %.6g, eps_q = %.6g, phi_mob = %.4g, e = %.6g. %s",
-                      strncmp(reason, prefix, strlen(prefix)) == 0 ? "" : prefix, reason, r->time, p, v[HYPOFAB_Q],
-                      v[HYPOFAB_EPS_Q], v[HYPOFAB_PHI_MOB], v[HYPOFAB_VOID_RATIO], advice(step, status));
+                      prefix, reason, r->time, p, v[HYPOFAB_Q], v[HYPOFAB_EPS_Q], v[HYPOFAB_PHI_MOB],
+                      v[HYPOFAB_VOID_RATIO], advice(step, status));
 }

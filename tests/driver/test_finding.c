@@ -55,12 +55,14 @@ static void test_peak_under_stress_control(void **unused) {
   for (int k = 0; k < r.n; k++) peak = fmax(peak, r.rows[k].value[HYPOFAB_Q]);
   recorder_clear(&r);
   push.until = (hypofab_mark){HYPOFAB_Q, 1e4};
-  expect(&material, &state, &push, 1, HYPOFAB_NOT_CONTROLLABLE, "rate", "Prescribe a strain rate", &r);
+  expect(&material, &state, &push, 1, HYPOFAB_NOT_CONTROLLABLE, "loss of controllability: ", "Prescribe a strain rate",
+         &r);
   assert_true(fabs(r.rows[r.n - 1].value[HYPOFAB_Q] / peak - 1.0) < 1e-3);
   recorder_clear(&r);
   /* The same as cycles that grow beyond it. */
   push.cycle = (hypofab_cycle){.count = 10, .quantity = HYPOFAB_Q_SIGNED, .upper = 2.0 * peak, .relative = 1};
-  expect(&material, &state, &push, 1, HYPOFAB_NOT_CONTROLLABLE, "rate", "Prescribe a strain rate", &r);
+  expect(&material, &state, &push, 1, HYPOFAB_NOT_CONTROLLABLE, "loss of controllability: ", "Prescribe a strain rate",
+         &r);
   recorder_clear(&r);
 }
 
@@ -73,7 +75,8 @@ static void test_limit_of_a_constant_q_path(void **unused) {
   hypofab_step step = preset("constant_q_unloading", 2, 1.0, 1);
   recorder r = {0};
   step.until = (hypofab_mark){HYPOFAB_P, 10.0};
-  expect(&material, &state, &step, 1, HYPOFAB_NOT_CONTROLLABLE, "rate", "Prescribe a strain rate", &r);
+  expect(&material, &state, &step, 1, HYPOFAB_NOT_CONTROLLABLE, "loss of controllability: ", "Prescribe a strain rate",
+         &r);
   const double *v = r.rows[r.n - 1].value;
   assert_true(v[HYPOFAB_PHI_MOB] > 20.0 && fabs(v[HYPOFAB_Q] - 100.0) < 1e-8);
   recorder_clear(&r);
