@@ -1,7 +1,6 @@
 #include "fabric2delta/description.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/message.h"
 #include "fabric2delta/bin_fit.h"
@@ -133,15 +132,9 @@ static hypofab_status describe_harmonics(const description_work *work, hypofab_h
   return bin_fit_judge(&work->bins, harmonics);
 }
 
-/* The fabric of a plane sample has the factors of the plane. */
 static void describe_fabric(const description_work *work, const hypofab_fabric *fabric,
                             hypofab_description *description) {
-  hypofab_fabric *to = &description->fabric;
-  *to = *fabric;
-  if (work->options.dimension == 2) {
-    memcpy(to->deviatoric_fabric, work->normals.third2, sizeof to->deviatoric_fabric);
-    to->anisotropy = work->normals.anisotropy;
-  }
+  description->fabric = *fabric;
   const double carriers = fabric->rattlers >= 0 ? (double)(fabric->particles - fabric->rattlers) : 0.0;
   const double factor = carriers > 0.0 ? 2.0 * (double)fabric->contacts / carriers : NAN;
   for (int k = 0; k < 6; k++) description->fabric_per_particle[k] = factor * work->normals.first2[k];
