@@ -17,6 +17,9 @@ int cmd_envelope(int argc, char **argv);
 /** Contact fabric of a contact list. */
 int cmd_fabric(int argc, char **argv);
 
+/** Histogram of contact directions. */
+int cmd_directions(int argc, char **argv);
+
 /** Directional stiffnesses of a deck. */
 int cmd_stiffness(int argc, char **argv);
 

@@ -103,11 +103,10 @@ static json_t *network(int dimension, const hypofab_network *n) {
                    matrix(dimension, n->stress));
 }
 
-/* The test against isotropy of `hypofab fabric`; its numbers are those of space. */
+/* The test against isotropy of `hypofab fabric`. */
 static void add_significance(const hypofab_description *d, json_t *object) {
   uncertainty found = {0};
-  found.has_significance =
-      d->dimension == 3 && hypofab_fabric_significance(&d->fabric, &found.significance) == HYPOFAB_OK;
+  found.has_significance = hypofab_fabric_significance(&d->fabric, &found.significance) == HYPOFAB_OK;
   uncertainty_to_json(&found, false, object);
 }
 

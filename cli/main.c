@@ -19,6 +19,7 @@ static const struct command {
     {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
     {"presets", cmd_presets, "list the presets of element tests and their parameters"},
     {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},
+    {"directions", cmd_directions, "histogram of contact directions, for figures"},
     {"stiffness", cmd_stiffness, "directional stiffnesses of a deck, with the uncertainty of its fabrics"},
     {"fit-c", cmd_fit_c, "the c of the weight f(a) that matches given directional stiffnesses best"},
     {"changes", cmd_changes, "contacts lost, gained and turned between snapshots, and the fabric they change"},

@@ -75,18 +75,33 @@ static void integrate_arc(const direction_bins *bins, int index, const gsl_integ
   }
 }
 
+void direction_bins_limits(const direction_bins *bins, int index, double polar[2], double azimuth[2]) {
+  if (bins->dimension == 2) {
+    for (int k = 0; k < 2; k++) {
+      polar[k] = 0.5 * pi;
+      azimuth[k] = (index + k) * pi / bins->count;
+    }
+    return;
+  }
+  const int ring = (int)sqrt(index / 4), sectors = 4 * (2 * ring + 1), sector = index - 4 * ring * ring;
+  for (int k = 0; k < 2; k++) {
+    const double radius = (double)(ring + k) / bins->rings;
+    polar[k] = acos(1.0 - radius * radius);
+    azimuth[k] = (sector + k) * 2.0 * pi / sectors;
+  }
+}
+
 static void integrate_cell(const direction_bins *bins, int index, const gsl_integration_glfixed_table *points,
                            visitor at, void *user) {
-  const int ring = (int)sqrt(index / 4), sectors = 4 * (2 * ring + 1), sector = index - 4 * ring * ring;
-  const double inner = (double)ring / bins->rings, outer = (ring + 1.0) / bins->rings;
-  const double theta_inner = acos(1.0 - inner * inner), theta_outer = acos(1.0 - outer * outer);
-  const double width = 2.0 * pi / sectors, area = 2.0 * pi / bins->count;
+  double polar[2], azimuth[2];
+  direction_bins_limits(bins, index, polar, azimuth);
+  const double area = 2.0 * pi / bins->count;
   for (size_t i = 0; i < N_POINTS; i++) {
     double theta, of_theta;
-    gsl_integration_glfixed_point(theta_inner, theta_outer, i, &theta, &of_theta, points);
+    gsl_integration_glfixed_point(polar[0], polar[1], i, &theta, &of_theta, points);
     for (size_t j = 0; j < N_POINTS; j++) {
       double phi, of_phi;
-      gsl_integration_glfixed_point(sector * width, (sector + 1) * width, j, &phi, &of_phi, points);
+      gsl_integration_glfixed_point(azimuth[0], azimuth[1], j, &phi, &of_phi, points);
       const double n[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
       at(n, of_theta * of_phi * sin(theta) / area, user);
     }

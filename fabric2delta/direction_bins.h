@@ -42,6 +42,9 @@ void direction_bins_add(direction_bins *bins, const contact *block, size_t n);
 hypofab_status direction_bins_integrate(const direction_bins *bins, int index,
                                         void (*at)(const double n[3], double share, void *user), void *user);
 
+/** Limits of a bin: polar angle from z and azimuth from x towards y, both [rad]. Half circle: polar pi/2 twice. */
+void direction_bins_limits(const direction_bins *bins, int index, double polar[2], double azimuth[2]);
+
 /** Free the memory. */
 void direction_bins_free(direction_bins *bins);
 

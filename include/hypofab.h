@@ -1066,6 +1066,30 @@ hypofab_status hypofab_fabric_fit(int n, const hypofab_fabric_probe *probes, int
  */
 hypofab_status hypofab_fabric_zones(double a_n, double stress_ratio, double no_gain[2], double no_loss[2]);
 
+/** Contacts of one bin of directions (a normal has no sense: n and -n are in one bin). */
+typedef struct hypofab_direction_bin {
+  double polar[2];   /**< limits of the angle from z [deg], 0 to 90; in two dimensions both 90 */
+  double azimuth[2]; /**< limits of the angle from x towards y [deg]; in two dimensions 0 to 180 */
+  int64_t contacts;
+  double density;        /**< contacts over what an isotropic sample of as many contacts would have: 1 on average */
+  double normal_force;   /**< mean of its contacts, > 0: compression; NaN without contacts or forces [force] */
+  double shear_force[3]; /**< mean, on the particle towards which the bin's direction points; NaN likewise [force] */
+} hypofab_direction_bin;
+
+/**
+ * @brief Histogram of contact directions: bins of equal area on the hemisphere z >= 0, or of equal angle on the half
+ *        circle y >= 0 in two dimensions (format->dimension 2). Streamed.
+ * @param wanted about as many bins, 4 to 10000; 0: 100, in two dimensions 18. On the hemisphere they are 4 k^2: rings
+ * of equal width in Lambert's projection with 4 (2 k + 1) sectors
+ * @param count  set to their number
+ * @param bins   set to `count` bins, to be freed with hypofab_contact_directions_free; NULL on failure
+ */
+hypofab_status hypofab_contact_directions(const char *path, const hypofab_contact_format *format, int wanted,
+                                          int *count, hypofab_direction_bin **bins);
+
+/** Free bins; NULL is allowed. */
+void hypofab_contact_directions_free(hypofab_direction_bin *bins);
+
 /* ------------------------------------------------------------- uncertainty */
 
 /** How far an anisotropy stands out of the noise of a finite number of contacts (docs/uncertainty.md). */
