@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import contact_files, cycles, dilatancy, figures, papers, probe_surfaces, stiffness
+from hypofab import contact_files, cycles, dilatancy, fabric_command, figures, papers, probe_surfaces, stiffness
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.probes import has_probes, is_classical, read_probes
@@ -70,6 +70,8 @@ def parser() -> argparse.ArgumentParser:
     draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
 
+    fabric_command.add_parser(commands)
+
     source = Path(__file__).parents[2]
     paper = commands.add_parser("paper", help="DEM runs of examples/dem and element tests beside a paper's results")
     paper.add_argument("paper", choices=papers.PAPERS, help="; ".join(f"{k}: {v}" for k, v in papers.PAPERS.items()))
@@ -111,6 +113,8 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "stiffness":
             columns = {label: stiffness.secant_stiffness(directory) for label, directory in options.runs}
             print(stiffness.table(columns | stiffness.REFERENCES))
+        elif options.command == "fabric":
+            fabric_command.run(options, save)
         elif options.command == "paper":
             runs = options.runs or Path(__file__).parents[2] / "examples/dem/results" / options.paper
             print(papers.compare(options.paper, runs, options.out))
