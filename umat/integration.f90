@@ -34,8 +34,9 @@ module umat_integration
   real(wp), parameter :: vanishing = 1.0e-8_wp
   !> A smaller fraction of the increment than this is not tried.
   real(wp), parameter :: smallest_step = 1.0e-10_wp
-  !> First step tried: this part of R, in which delta turns. Where the stress changes too much the prediction shortens it.
-  real(wp), parameter :: step_of_R = 1.0_wp
+  !> First step tried, at the default tolerance: this part of R, in which delta turns. Where the stress changes too much the
+  !> prediction shortens it.
+  real(wp), parameter :: step_of_R = 0.6_wp, step_with_tangent = 0.35_wp
   !> Up to this part of R, or this strain of the plain model, the short rule is tried first.
   real(wp), parameter :: short_of_R = 0.15_wp, short_plain = 1.0e-5_wp
   !> The tangent asks more of the nodes: this part of that.
@@ -83,7 +84,7 @@ contains
     leg%with_tangent = with_tangent
 
     wanted = length
-    if (m%intergranular) wanted = min(length, step_of_R * m%R)
+    if (m%intergranular) wanted = min(length, first_step(options, with_tangent) * m%R)
     step%rule = merge(rule_short, rule_long, wanted <= merge(short_of_R * m%R, short_plain, m%intergranular) * &
                       merge(short_with_tangent, 1.0_wp, with_tangent))
     step%x = leg%path%start
@@ -119,5 +120,14 @@ contains
     state%stress = step%stress
     influence = step%influence
   end subroutine integrate
+
+  !> First step tried, as a part of R; the errors of a step (step.f90) grow with its seventh power.
+  pure function first_step(options, with_tangent) result(part)
+    type(options_type), intent(in) :: options
+    logical, intent(in) :: with_tangent
+    real(wp) :: part
+    type(options_type), parameter :: default = options_type()
+   part = merge(step_with_tangent, step_of_R, with_tangent) * (options%tolerance / default%tolerance)**(1.0_wp / 7.0_wp)
+  end function first_step
 
 end module umat_integration
