@@ -282,12 +282,12 @@ contains
         select case (instructions)
 #ifdef HYPOFAB_BATCH_X86
         case (avx512)
-          call begin_segment_avx512(m, padded(left), lanes, tags)
+          call begin_segment_avx512(m, options, padded(left), lanes, tags)
         case (avx2)
-          call begin_segment_avx2(m, padded(left), lanes, tags)
+          call begin_segment_avx2(m, options, padded(left), lanes, tags)
 #endif
         case default
-          call begin_segment_portable(m, padded(left), lanes, tags)
+          call begin_segment_portable(m, options, padded(left), lanes, tags)
         end select
       end if
       call arrange(short)

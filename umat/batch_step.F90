@@ -391,18 +391,20 @@ contains
     integer, intent(in) :: rule
     real(wp), intent(in) :: modes(width, 0:2), coupling(width)
     real(wp) :: missing(width)
-    real(wp) :: ratio, to_next
+    real(wp) :: highest, falls, ratio, to_next
+    real(wp), parameter :: trust = 0.3_wp
     integer :: i
     !GCC$ ivdep
     do i = 1, width
-      ratio = sqrt(min(1.0_wp, modes(i, 0) / max(modes(i, 2), nothing)))
+      falls = min(1.0_wp, modes(i, 1) / max(modes(i, 2), nothing))
+      highest = max(modes(i, 0), merge(trust * modes(i, 1) * falls, 0.0_wp, modes(i, 2) > 0.0_wp))
+      ratio = sqrt(min(1.0_wp, highest / max(modes(i, 2), nothing)))
       if (rule == rule_short) then
-        ! As in collocation.f90, a fall to the mean says little.
-        to_next = min(1.0_wp, modes(i, 0) / max(modes(i, 1), nothing))
-        ratio = merge(to_next, ratio, modes(i, 0) > ratio * modes(i, 1))
-        missing(i) = modes(i, 0) * ratio * max(ratio, coupling(i))
+        to_next = min(1.0_wp, highest / max(modes(i, 1), nothing))
+        ratio = merge(to_next, ratio, highest > ratio * modes(i, 1))
+        missing(i) = highest * ratio * max(ratio, coupling(i))
       else
-        missing(i) = modes(i, 0) * ratio * max(ratio**2, coupling(i))
+        missing(i) = highest * ratio * max(ratio**2, coupling(i))
       end if
     end do
   end function tail

@@ -17,7 +17,7 @@ module umat_collocation
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, sensitivity_type, sensitivities, apply_L
   implicit none
   private
-  public :: nodes_type, place_nodes, start_type, start_of_step, prediction, sweep, missing_of, tail
+  public :: nodes_type, place_nodes, start_type, start_of_step, prediction, sweep, missing_of, tail, decay
 
   !> What is known at the nodes of a step without the stress.
   type :: nodes_type
@@ -198,15 +198,32 @@ contains
     real(wp), intent(in) :: modes(0:2), coupling
     integer, intent(in) :: n
     real(wp) :: missing
-    real(wp) :: ratio
-    ratio = 1.0_wp
-    if (modes(0) < modes(2)) ratio = sqrt(modes(0) / modes(2))
+    real(wp) :: highest, ratio
+    call decay(modes, highest, ratio)
     ! Three nodes: mode 0 is the mean, which says little about how the others fall.
-    if (n == 2 .and. modes(0) > ratio * modes(1)) then
-      ratio = 1.0_wp
-      if (modes(0) < modes(1)) ratio = modes(0) / modes(1)
-    end if
-    missing = modes(0) * ratio * max(ratio**(n / 2), coupling)
+    if (n == 2 .and. highest > ratio * modes(1)) ratio = quotient(highest, modes(1))
+    missing = highest * ratio * max(ratio**(n / 2), coupling)
   end function tail
+
+  !> How the modes of an integrand fall.
+  !> @param modes   sizes of the coefficients of degree n, n - 1, n - 2
+  !> @param highest size of mode n, or what the others make of it: one mode alone may vanish by accident
+  !> @param ratio   of a mode to the one before, at most 1
+  pure subroutine decay(modes, highest, ratio)
+    real(wp), intent(in) :: modes(0:2)
+    real(wp), intent(out) :: highest, ratio
+    real(wp), parameter :: trust = 0.3_wp
+    highest = modes(0)
+    if (modes(2) > 0.0_wp) highest = max(highest, trust * modes(1) * quotient(modes(1), modes(2)))
+    ratio = sqrt(quotient(highest, modes(2)))
+  end subroutine decay
+
+  !> a/b, at most 1; nothing overflows.
+  pure function quotient(a, b)
+    real(wp), intent(in) :: a, b
+    real(wp) :: quotient
+    quotient = 1.0_wp
+    if (a < b) quotient = a / b
+  end function quotient
 
 end module umat_collocation

@@ -4,7 +4,7 @@
 !> The increment is L (d + eta); carried is the derivative of the stress with respect to eta at a fixed fraction of the
 !> increment. theory.md, section 4.
 module umat_influence
-  use umat_collocation, only: nodes_type
+  use umat_collocation, only: nodes_type, decay
   use umat_delta_path, only: kappa_slope, delta_influence
   use umat_kinds, only: wp
   use umat_leg, only: leg_type
@@ -50,7 +50,7 @@ contains
     real(wp), intent(out) :: error
     real(wp), dimension(6, 6, 0:most_nodes) :: direct, total, y, by_stress
     real(wp) :: integral(0:most_nodes), slope(0:most_nodes), done(0:most_nodes), old(6, 6)
-    real(wp) :: x_h(6), weight_h, rate(6), by_void_ratio(6), change, previous, at_end, left
+    real(wp) :: x_h(6), weight_h, rate(6), by_void_ratio(6), change, previous, at_end, left, highest, ratio
     integer :: k, i, pass, n
 
     n = rule%n
@@ -91,7 +91,8 @@ contains
       if (pass == most_passes) return
       previous = change
     end do
-    error = missing(size_of(mode(0)), size_of(mode(2))) / (share * at_end)
+    call decay([size_of(mode(0)), size_of(mode(1)), size_of(mode(2))], highest, ratio)
+    error = highest * ratio**n / (share * at_end) ! the rule misses mode 2 n
     influence%on_stress = y(:, :, n) + (end - 1.0_wp) * total(:, :, n)
     influence%integral = integral(n) + (end - 1.0_wp) * slope(n)
 
@@ -107,14 +108,6 @@ contains
       call vary_operands(m, nodes%point(k)%g, leg%direction, leg%branch, d_delta, dx, dweight)
       variation = vary_with_operands(tensors(k), dx, dweight)
     end function direct_influence
-
-    !> What the nodes leave out: mode 2 n, if the modes fall geometrically.
-    pure function missing(highest, second_below)
-      real(wp), intent(in) :: highest, second_below
-      real(wp) :: missing
-      missing = highest
-      if (highest < second_below) missing = highest * sqrt(highest / second_below)**n
-    end function missing
 
     !> Coefficient of the i-th mode from the highest.
     pure function mode(i) result(coefficient)
