@@ -124,7 +124,7 @@ static double refine(search *s, double normal[3]) {
   int failed = gsl_multimin_fminimizer_set(simplex, &function, &x.vector, &size.vector);
   for (int i = 0; i < 200 && !failed; i++) {
     failed = gsl_multimin_fminimizer_iterate(simplex);
-    if (gsl_multimin_fminimizer_size(simplex) < 1e-9) break;
+    if (gsl_multimin_fminimizer_size(simplex) < 1e-7) break;
   }
   const double lowest = gsl_multimin_fminimizer_minimum(simplex);
   if (lowest < found) {

@@ -310,7 +310,7 @@ typedef enum hypofab_quantity {
   HYPOFAB_CYCLE,      /**< half cycles done in the step, over two */
   HYPOFAB_ETA_SIGNED, /**< q_signed/p */
   /* Stability (hypofab_stability, hypofab_control_stability). In rows NaN unless hypofab_test_options.stability asks
-   * for them: they cost about a thousand rate evaluations each row. */
+   * for them: they cost as much as some thousand rate evaluations each row. */
   HYPOFAB_FIRST_STABILITY,
   HYPOFAB_WORK2 = HYPOFAB_FIRST_STABILITY, /**< second-order work Tdot:D/|D|^2 along the path [stress] */
   HYPOFAB_WORK2_COS,                       /**< Tdot:D/(|Tdot||D|) along the path */

@@ -8,7 +8,17 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import contact_files, cycles, dilatancy, fabric_command, figures, papers, probe_surfaces, stiffness
+from hypofab import (
+    contact_files,
+    cycles,
+    dilatancy,
+    fabric_command,
+    figures,
+    papers,
+    probe_surfaces,
+    stability,
+    stiffness,
+)
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.probes import has_probes, is_classical, read_probes
@@ -40,6 +50,9 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
         zoom = None if options.zoom is None else options.zoom / 100
         save(figures.stress_strain(run, zoom=zoom), directory / "stress_strain")
         save(figures.volumetric(run, compression_positive=options.compression_positive), directory / "volumetric")
+        tests = [test for test in stability.read_stability(directory) if len(test.eps_q) > 2]
+        if tests:
+            save(stability.figure(tests), directory / "stability")
     probes = {envelope.file: envelope for envelope in read_probes(directory)} if has_probes(directory) else {}
     for path in envelopes:
         stem = path.with_suffix("")
