@@ -127,7 +127,7 @@ contains
     logical, intent(in) :: with_tangent
     real(wp) :: part
     type(options_type), parameter :: default = options_type()
-    part = merge(step_with_tangent, step_of_R, with_tangent) * (options%tolerance / default%tolerance)**(1.0_wp / 7.0_wp)
+   part = merge(step_with_tangent, step_of_R, with_tangent) * (options%tolerance / default%tolerance)**(1.0_wp / 7.0_wp)
   end function first_step
 
 end module umat_integration

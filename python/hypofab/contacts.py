@@ -15,11 +15,15 @@ from pathlib import Path
 
 import numpy as np
 
+from hypofab.contact_files import convert
 from hypofab.papers.program import run, run_json
 from hypofab.results import Array, ResultError
 
 Contacts = str | Path | Mapping[str, Array]
 """A contact file, or arrays with one row per contact (see COLUMNS)."""
+
+CONVERTED = (".h5", ".hdf5", ".npz", ".vtp")
+"""Endings of files that the program does not read itself: contact_files converts them first."""
 
 COLUMNS = {
     "id1": ("id1",),
@@ -72,11 +76,14 @@ def _words(options: Mapping[str, object]) -> list[str]:
 
 
 def _of(command: str, contacts: Contacts, options: Mapping[str, object]) -> dict:
-    if not isinstance(contacts, Mapping):
+    if not isinstance(contacts, Mapping) and Path(contacts).suffix not in CONVERTED:
         return run_json(command, contacts, *_words(options))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "contacts.npy"
-        np.save(path, _records(contacts))
+        if isinstance(contacts, Mapping):
+            np.save(path, _records(contacts))
+        else:
+            convert(contacts, path)
         return run_json(command, path, *_words(options))
 
 

@@ -50,6 +50,15 @@ def test_delta_of_arrays() -> None:
     assert found["delta"] == pytest.approx(np.array([-1, 2, -1, 0, 0, 0]) * 1e-4 / math.sqrt(6), abs=1e-12)
 
 
+def test_archive_of_arrays(tmp_path: Path) -> None:
+    """A file that the program does not read itself gives what its arrays give."""
+    normal = np.array([[1.0, 0, 0], [0, 0.6, 0.8], [0, 1, 0]])
+    np.savez(tmp_path / "contacts.npz", normal=normal)
+    found = describe(tmp_path / "contacts.npz")
+    assert found["fabric"] == describe({"normal": normal})["fabric"]
+    assert found["contacts"] == 3
+
+
 def test_ids_and_series(tmp_path: Path) -> None:
     found = describe({"id1": [0, 1], "id2": [1, 2], "normal": [[1, 0, 0], [0, 0, 1]]}, particles=4)
     assert found["coordination_number"] == 1
