@@ -159,6 +159,32 @@ static void test_every_preset(void **unused) {
   assert_true(n_compared > 20);
 }
 
+/* Rotating principal axes, compressible pore water, cycles and a history: what the conditions of a step may be. */
+static void test_every_kind_of_step(void **unused) {
+  (void)unused;
+  static const double time[4] = {0, 1, 2, 4};
+  static const double value[4][6] = {{0}, {1e-3, 0, 0, 0, 0, 0}, {1e-3, 0, 0, 0, 5e-4, 0}, {0, 0, 0, 0, -5e-4, 0}};
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-80, -95, -120, 0, 0, 0}, {0}, 0.7};
+  const hypofab_argument turn[] = {{"axis", {2}}, {"normal", {1}}, {"rate", {30}}};
+  hypofab_step steps[3];
+  memset(steps, 0, sizeof steps);
+  assert_int_equal(hypofab_step_preset_with(&steps[0], "hollow_cylinder_rotation", turn, 3), HYPOFAB_OK);
+  steps[0].until = (hypofab_mark){HYPOFAB_ALPHA, 60.0};
+  steps[0].rows = 5;
+  assert_int_equal(hypofab_step_preset(&steps[1], "drained_triaxial_compression", 2, 1e-3), HYPOFAB_OK);
+  assert_int_equal(hypofab_step_pore_water(&steps[1], 1e5), HYPOFAB_OK);
+  steps[1].cycle =
+      (hypofab_cycle){.count = 3, .quantity = HYPOFAB_EPS_ZZ, .lower = -3e-4, .upper = 1e-4, .relative = 1};
+  steps[1].rows = 2;
+  for (int i = 0; i < 6; i++)
+    assert_int_equal(hypofab_step_condition(&steps[2], i, (hypofab_quantity)(HYPOFAB_EPS_XX + i), 0.0), HYPOFAB_OK);
+  steps[2].history = (hypofab_history){4, time, value};
+  steps[2].rows = 3;
+  compare(&material, &state, steps, 3, HYPOFAB_OK);
+}
+
 /* Stress control beyond the peak: the same finding at the same place. */
 static void test_stops(void **unused) {
   (void)unused;
@@ -202,6 +228,7 @@ int main(void) {
       cmocka_unit_test(test_undrained_cycles),
       cmocka_unit_test(test_reversal_inside_a_step),
       cmocka_unit_test(test_every_preset),
+      cmocka_unit_test(test_every_kind_of_step),
       cmocka_unit_test(test_stops),
       cmocka_unit_test(test_names),
   };
