@@ -130,28 +130,47 @@ contains
 
   contains
 
-    !> Put every point into a lane.
+    !> Put every point into a lane. Loops, because array expressions of a size that is not constant are allocated.
     subroutine load()
-      logical :: finite(n)
-      integer :: j
+      logical :: finite(most_points)
+      integer :: j, k
       left = n
       top = n
-      tags(:n, t_rule) = rule_short
-      lanes(:n, l_e) = void_ratio(:n)
-      finite = ieee_is_finite(void_ratio(:n))
-      do j = 1, 6
-        lanes(:n, l_stress - 1 + j) = stress(:n, j)
-        lanes(:n, l_strain - 1 + j) = strain(:n, j)
-        finite = finite .and. ieee_is_finite(stress(:n, j)) .and. ieee_is_finite(strain(:n, j))
-        lanes(:n, l_delta - 1 + j) = 0.0_wp
-        if (.not. present(delta)) cycle
-        if (m%intergranular) lanes(:n, l_delta - 1 + j) = delta(:n, j)
-        finite = finite .and. ieee_is_finite(delta(:n, j))
+      do k = 1, n
+        lanes(k, l_e) = void_ratio(k)
+        finite(k) = ieee_is_finite(void_ratio(k))
+        point(k) = k
       end do
-      tags(:n, t_kind) = kind_fixed
-      tags(:n, t_outcome) = merge(outcome_begin, outcome_special, finite)
-      point(:n) = [(j, j=1, n)]
+      do j = 1, 6
+        do k = 1, n
+          lanes(k, l_stress - 1 + j) = stress(k, j)
+          lanes(k, l_strain - 1 + j) = strain(k, j)
+          lanes(k, l_delta - 1 + j) = 0.0_wp
+          finite(k) = finite(k) .and. ieee_is_finite(stress(k, j)) .and. ieee_is_finite(strain(k, j))
+        end do
+      end do
+      if (present(delta)) call load_delta(delta, finite)
+      do k = 1, n
+        tags(k, t_rule) = rule_short
+        tags(k, t_kind) = kind_fixed
+        tags(k, t_outcome) = merge(outcome_begin, outcome_special, finite(k))
+      end do
     end subroutine load
+
+    !> The same for delta.
+    !> @param given  delta of the points
+    !> @param finite set to false where it is not
+    subroutine load_delta(given, finite)
+      real(c_double), intent(in) :: given(stride, *)
+      logical, intent(inout) :: finite(most_points)
+      integer :: j, k
+      do j = 1, 6
+        do k = 1, n
+          if (m%intergranular) lanes(k, l_delta - 1 + j) = given(k, j)
+          finite(k) = finite(k) .and. ieee_is_finite(given(k, j))
+        end do
+      end do
+    end subroutine load_delta
 
     !> Hand what the kernel does not decide to the scalar update, and move the lanes still in use together.
     subroutine close_ranks()
