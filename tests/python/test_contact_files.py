@@ -7,13 +7,15 @@ import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 
-import dask
-import h5py
 import numpy as np
 import pytest
 
 from hypofab.__main__ import main
 from hypofab.contact_files import ContactFileError, convert
+
+dask = pytest.importorskip("dask", reason="dask is missing: python/requirements-test.txt")
+h5py = pytest.importorskip("h5py", reason="h5py is missing: python/requirements-contacts.txt")
+pytest.importorskip("vtkmodules", reason="vtk is missing: python/requirements-contacts.txt")
 
 PROGRAM = os.environ.get("HYPOFAB_PROGRAM")
 DEM = Path(__file__).parents[1] / "data" / "dem"
