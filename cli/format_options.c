@@ -30,7 +30,7 @@ enum {
 
 static const struct argp_option options[] = {
     {.doc = "What FILE is (docs/contact_files.md):", .group = 1},
-    {.name = "format",
+    {.name = "file-format",
      .key = KEY_FORMAT,
      .arg = "KIND",
      .doc = "table, lammps, vtk, npy, mercury, pfc or spam (default: what FILE shows)"},
@@ -43,7 +43,8 @@ static const struct argp_option options[] = {
      .arg = "ROLE=COLUMN,...",
      .doc = "Columns of the particle list: id, x, y, z, radius, diameter, volume, ax, ay, az"},
     {.name = "timestep", .key = KEY_TIMESTEP, .arg = "N", .doc = "Which one, of a dump with several"},
-    {.name = "plane", .key = KEY_PLANE, .doc = "Two-dimensional sample: disks in the plane xy"},
+    {.name = "two-dimensional", .key = KEY_PLANE, .doc = "Disks in the plane xy"},
+    {.name = "plane", .flags = OPTION_ALIAS},
     {.name = "from-2-to-1", .key = KEY_FROM_2, .doc = "Normals and branches point from particle 2 to particle 1"},
     {.name = "force-on-1", .key = KEY_FORCE_ON_1, .doc = "Forces act on particle 1 (default: on particle 2)"},
     {.doc = "Which contacts count:", .group = 2},
