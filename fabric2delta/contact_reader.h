@@ -87,9 +87,9 @@ typedef struct text_reader_options {
   bool comment_ends;   /**< a comment after the first row begins another time step, which is refused */
 } text_reader_options;
 
-/** Read rows of numbers: reader->input stands before the first row, or before the header. */
-hypofab_status text_reader_open(contact_reader *reader, const hypofab_contact_format *format,
-                                const contact_columns *columns, const text_reader_options *options);
+/** Read rows of numbers: reader->input stands before the first row, or before the header. Takes over `columns`. */
+hypofab_status text_reader_open(contact_reader *reader, const hypofab_contact_format *format, contact_columns *columns,
+                                const text_reader_options *options);
 
 /** Read a binary array of NumPy; names of fields or numbers of columns. */
 hypofab_status npy_reader_open(contact_reader *reader, const hypofab_contact_format *format,

@@ -6,6 +6,9 @@
 #include "fabric2delta/contact_reader.h"
 #include "fabric2delta/npy_head.h"
 
+/* Rows of a chunk: few enough for their contacts to stay in the cache of a core until they are summed. */
+enum { MOST_ROWS = 2048 };
+
 typedef struct npy_reader {
   npy_head head;
   const npy_field *field[CONTACT_ROLES]; /* NULL: not there */
@@ -23,7 +26,7 @@ static void close_npy(contact_reader *reader) { free(reader->own); }
 static hypofab_status fill_npy(contact_reader *reader, contact_chunk *chunk) {
   npy_reader *own = reader->own;
   const int64_t left = own->head.rows - own->delivered, fit = (int64_t)(chunk->size / own->head.row);
-  const int64_t rows = left < fit ? left : fit;
+  const int64_t most = fit < MOST_ROWS ? fit : MOST_ROWS, rows = left < most ? left : most;
   const size_t wanted = (size_t)rows * own->head.row;
   chunk->first = own->delivered + 1;
   hypofab_status status = lines_bytes(&reader->input, chunk->bytes, wanted, &chunk->length);

@@ -163,12 +163,16 @@ static hypofab_status refuse_no_normals(const table *data) {
                       data->input->path, data->names);
 }
 
-hypofab_status text_reader_open(contact_reader *reader, const hypofab_contact_format *format,
-                                const contact_columns *columns, const text_reader_options *options) {
+hypofab_status text_reader_open(contact_reader *reader, const hypofab_contact_format *format, contact_columns *columns,
+                                const text_reader_options *options) {
   text_reader *own = calloc(1, sizeof *own);
-  if (!own) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", reader->input.path);
+  if (!own) {
+    contact_columns_free(columns);
+    return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", reader->input.path);
+  }
   own->columns = *columns;
   own->options = *options;
+  own->options.header = NULL; /* the caller's, for now only */
   own->left = options->rows;
   reader->own = own;
   reader->fill = fill_text;

@@ -124,6 +124,15 @@ def test_program_reads_what_numpy_writes(tmp_path: Path, table: np.ndarray) -> N
 
 
 @needs_program
+def test_normals_in_the_order_of_spam(tmp_path: Path, table: np.ndarray) -> None:
+    np.save(tmp_path / "spam.npy", np.ascontiguousarray(table[:, [0, 1, 7, 6, 5]]))
+    np.savetxt(tmp_path / "spam.txt", table[:, [0, 1, 7, 6, 5]])
+    expected = hypofab("fabric", DEM / "small_contacts.txt.gz")["fabric"]
+    for name in ("spam.npy", "spam.txt"):
+        assert hypofab("fabric", tmp_path / name, "--file-format", "spam")["fabric"] == expected
+
+
+@needs_program
 def test_vtk_xml(tmp_path: Path, arrays: dict[str, np.ndarray]) -> None:
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
