@@ -121,14 +121,19 @@ def compare(runs: Path, out: Path) -> str:
             axes.set(xlabel="element test, over I (up: along y)", ylabel="DEM, over I", title=title)
         fixed.legend(fontsize=7)
     error = {c: float(np.sqrt(np.mean((np.log(values) - np.log(dem)) ** 2))) for c, values in computed.items()}
+    ratios = {key: np.log(values[:, 0] / values[:, 1]) for key, values in {"DEM": dem, **computed}.items()}
+    correlation = {c: float(np.corrcoef(ratios["DEM"], ratios[c])[0, 1]) for c in computed}
+    vertical = float(np.corrcoef(ratios["DEM"], [member.vertical for member in members])[0, 1])
     null = float(np.sqrt(np.mean(np.log(dem) ** 2)))
     head = ["lateral", "seeds", "e", "1.5 F_yy", "y : x, DEM", "y : x, c = 0.05", f"y : x, c = {fit.c:.3g}"]
     head += ["y : I, DEM", "x : I, DEM", "y : I, fitted", "x : I, fitted"]
     return "\n\n".join(
         [
-            f"c = {fit.c:.3g} ({fit.lower:.3g} to {fit.upper:.3g}); root-mean-square error of the logarithms of"
-            f" stiffness over that of the isotropic samples: {error[fit.c]:.3f} fitted, {error[0.05]:.3f} at c = 0.05,"
-            f" {null:.3f} if all were 1",
+            f"c = {fit.c:.3g} ({fit.lower:.3g} to {fit.upper:.3g}). Root-mean-square error of the logarithms of stiffness"
+            f" over that of the isotropic samples: {error[fit.c]:.3f} fitted, {error[0.05]:.3f} at c = 0.05,"
+            f" {null:.3f} if all were 1.",
+            f"Correlation of the logarithms of y : x in DEM with those of element tests: {correlation[fit.c]:.2f} fitted,"
+            f" {correlation[0.05]:.2f} at c = 0.05; with 1.5 F_yy: {vertical:.2f}.",
             draw.table(head, rows),
         ]
     )
