@@ -129,11 +129,11 @@ def compare(runs: Path, out: Path) -> str:
     head += ["y : I, DEM", "x : I, DEM", "y : I, fitted", "x : I, fitted"]
     return "\n\n".join(
         [
-            f"c = {fit.c:.3g} ({fit.lower:.3g} to {fit.upper:.3g}). Root-mean-square error of the logarithms of stiffness"
-            f" over that of the isotropic samples: {error[fit.c]:.3f} fitted, {error[0.05]:.3f} at c = 0.05,"
+            f"c = {fit.c:.3g} ({fit.lower:.3g} to {fit.upper:.3g}). Root-mean-square error of the logarithms of"
+            f" stiffness over that of the isotropic samples: {error[fit.c]:.3f} fitted, {error[0.05]:.3f} at c = 0.05,"
             f" {null:.3f} if all were 1.",
-            f"Correlation of the logarithms of y : x in DEM with those of element tests: {correlation[fit.c]:.2f} fitted,"
-            f" {correlation[0.05]:.2f} at c = 0.05; with 1.5 F_yy: {vertical:.2f}.",
+            f"Correlation of the logarithms of y : x in DEM with those of element tests: {correlation[fit.c]:.2f}"
+            f" fitted, {correlation[0.05]:.2f} at c = 0.05; with 1.5 F_yy: {vertical:.2f}.",
             draw.table(head, rows),
         ]
     )
