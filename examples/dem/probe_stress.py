@@ -45,9 +45,7 @@ def parse() -> tuple[argparse.Namespace, dict]:
     top.add_argument("--sample", required=True, help="folder of a finished isotropic preparation, three-dimensional")
     top.add_argument("--lode", type=float, default=0.0, help="Lode angle [deg]: 0 compression, 60 extension")
     top.add_argument("--failure", type=float, default=5e-3, help="unbalanced force that tells failure")
-    top.add_argument(
-        "--back", type=float, default=0.03, help="share of the deviator taken back so that the state can rest"
-    )
+    top.add_argument("--back", type=float, default=0.005, help="share of the deviator taken back, again while it flows")
     top.add_argument("--size", type=float, default=0.1, help="norm of a stress increment [kPa]")
     top.add_argument("--directions", type=int, default=26)
     top.add_argument("--duration", type=float, default=500.0, help="of shearing by q = p, in inertial times")
@@ -98,21 +96,32 @@ def main() -> None:
         strain = simulation.strain()
         return utils.unbalancedForce() > opt.failure or float(np.max(np.abs(strain))) > 0.05
 
-    def retreat(simulation: Simulation) -> None:
-        """The stress that the sample can bear: a little less than the last target."""
-        last = np.array(simulation.servo.target)
-        simulation.notes["stress at failure [kPa]"] = [float(s) / 1e3 for s in last]
+    def note_failure(simulation: Simulation) -> None:
+        """Remember stress and strain at failure, and begin to look for a stress that the sample can bear."""
+        simulation.notes["stress at failure [kPa]"] = [float(s) / 1e3 for s in simulation.servo.target]
         simulation.notes["strain at failure"] = [float(e) for e in simulation.strain()]
+        retreat(simulation)
+
+    def retreat(simulation: Simulation) -> None:
+        """Hold a little less deviator than before."""
+        last = np.array(simulation.servo.target)
         rest = last - opt.back * (last - last.mean())
+        simulation.notes["strain of retreat"] = [float(e) for e in simulation.strain()]
+        simulation.notes["retreats"] = simulation.notes.get("retreats", 0) + 1
         simulation.notes["stress of the probes [kPa]"] = [float(s) / 1e3 for s in rest]
         simulation.servo.hold([float(s) for s in rest], 1e-3 / time_unit, with_integral=True)
 
     def resting(simulation: Simulation) -> bool:
+        """Whether it rests. A sample that flows by more than 0.2 % instead is given less to bear."""
+        flow = simulation.strain() - np.array(simulation.notes["strain of retreat"])
+        if float(np.max(np.abs(flow))) > 0.002:
+            retreat(simulation)
+            return False
         return simulation.is_at(simulation.servo.target, 1e-4, opt.quiet)
 
     stages = [
         Stage("shear", shear, failed, 250, need=2, longest=1_000_000),
-        Stage("rest", retreat, resting, 500, need=4, record_every=4, longest=200_000, end=save_base),
+        Stage("rest", note_failure, resting, 250, need=4, record_every=4, longest=200_000, end=save_base),
     ]
     if simulation.stage_index < len(stages):
         simulation.run(stages)
