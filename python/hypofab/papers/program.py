@@ -18,11 +18,11 @@ def program() -> str:
     return found
 
 
-def run(*arguments: str | Path) -> str:
-    """Standard output of the program; ResultError with its message when it fails."""
+def run(*arguments: str | Path, accept: tuple[int, ...] = (0,)) -> str:
+    """Standard output of the program; ResultError with its message when it ends with another exit code."""
     words = [program(), *map(str, arguments)]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
+    if done.returncode not in accept:
         raise ResultError(f"{' '.join(words)}: {done.stderr.strip() or done.stdout.strip()}")
     return done.stdout
 
