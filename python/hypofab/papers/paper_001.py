@@ -156,7 +156,7 @@ def roses(fan: Fan, path: Path) -> None:
                 axes = figure.add_subplot(2, len(shown), row * len(shown) + column + 1, projection="polar")
                 rose = snapshot[mechanism]["rose"]
                 count = np.array(rose["count"], dtype=float)
-                pairs = count.reshape(-1, 2).sum(axis=1)  # bins of 15 degrees
+                pairs = count.reshape(-1, 4).sum(axis=1)  # bins of 30 degrees: contacts are few
                 width = math.pi / len(pairs)
                 middle = (np.arange(len(pairs)) + 0.5) * width
                 for turn in (0.0, math.pi):
