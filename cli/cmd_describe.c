@@ -9,12 +9,12 @@
 #include "cli/describe_report.h"
 #include "cli/report.h"
 
-enum { KEY_JSON = 0x100, KEY_CSV, KEY_FRICTION, KEY_ANGLE, KEY_SLIDING, KEY_BINS };
+enum { KEY_JSON = 0x100, KEY_CSV, KEY_FRICTION, KEY_ANGLE, KEY_SLIDING, KEY_BINS, KEY_TOGETHER };
 
 typedef struct choices {
   contact_options contacts;
   hypofab_describe_options describe;
-  bool json, csv;
+  bool json, csv, together;
 } choices;
 
 static const struct argp_option options[] = {
@@ -28,6 +28,9 @@ static const struct argp_option options[] = {
      .key = KEY_BINS,
      .arg = "N",
      .doc = "Bins for least squares and goodness of fit (default: 100 on the hemisphere, 18 on the half circle)"},
+    {.name = "together",
+     .key = KEY_TOGETHER,
+     .doc = "The files are parts of one sample: of ranks, or of a long list (default: each is a sample)"},
     {.name = "json",
      .key = KEY_JSON,
      .doc = "Print everything as JSON: an object, or an array of them for several files"},
@@ -45,7 +48,8 @@ static const char doc[] =
     "Examples:\n"
     "  hypofab describe contacts.txt.gz --particles particles.txt.gz --cell 0.0130,0.0130,0.0130 --json\n"
     "  hypofab describe contacts.txt.gz --friction-angle 30 --sliding 0.9999\n"
-    "  hypofab describe step_*.txt --csv > series.csv";
+    "  hypofab describe step_*.txt --csv > series.csv\n"
+    "  hypofab describe rank_*.txt --together";
 
 static double parse_positive(struct argp_state *state, const char *option, const char *text) {
   double value = parse_number(state, option, text);
@@ -64,6 +68,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       return 0;
     case KEY_SLIDING: describe->sliding_threshold = parse_positive(state, "--sliding", text); return 0;
     case KEY_BINS: describe->bins = (int)parse_positive(state, "--bins", text); return 0;
+    case KEY_TOGETHER: chosen->together = true; return 0;
     case KEY_JSON: chosen->json = true; return 0;
     case KEY_CSV: chosen->csv = true; return 0;
     case ARGP_KEY_END:
@@ -74,11 +79,15 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
+static int sample_count(const choices *chosen) { return chosen->together ? 1 : chosen->contacts.n_files; }
+
 /* Everything is computed before anything is printed: a series appears whole or not at all. */
 static int describe_all(const choices *chosen, hypofab_description *descriptions) {
-  for (int i = 0; i < chosen->contacts.n_files; i++) {
-    hypofab_status status =
-        hypofab_describe_file(chosen->contacts.files[i], &chosen->contacts.format, &chosen->describe, &descriptions[i]);
+  const contact_options *contacts = &chosen->contacts;
+  for (int i = 0; i < sample_count(chosen); i++) {
+    const char *const *files = (const char *const *)contacts->files + i;
+    hypofab_status status = hypofab_describe_parts(chosen->together ? contacts->n_files : 1, files, &contacts->format,
+                                                   &chosen->describe, &descriptions[i]);
     if (status) return cli_exit(status);
   }
   return CLI_DONE;
@@ -86,9 +95,9 @@ static int describe_all(const choices *chosen, hypofab_description *descriptions
 
 static int print_all_json(const choices *chosen, const hypofab_description *descriptions) {
   char **files = chosen->contacts.files;
-  if (chosen->contacts.n_files == 1) return print_json(description_to_json(files[0], &descriptions[0]));
+  if (sample_count(chosen) == 1) return print_json(description_to_json(files[0], &descriptions[0]));
   json_t *array = json_array();
-  for (int i = 0; i < chosen->contacts.n_files; i++)
+  for (int i = 0; i < sample_count(chosen); i++)
     if (json_array_append_new(array, description_to_json(files[i], &descriptions[i]))) {
       json_decref(array);
       return print_json(NULL);
@@ -99,13 +108,13 @@ static int print_all_json(const choices *chosen, const hypofab_description *desc
 static int print_all(const choices *chosen, const hypofab_description *descriptions) {
   if (chosen->json) return print_all_json(chosen, descriptions);
   if (chosen->csv) print_series_head();
-  for (int i = 0; i < chosen->contacts.n_files; i++) {
+  for (int i = 0; i < sample_count(chosen); i++) {
     const char *file = chosen->contacts.files[i];
     if (chosen->csv) {
       print_series_row(file, &descriptions[i]);
       continue;
     }
-    if (chosen->contacts.n_files > 1) printf("%s%s\n\n", i ? "\n" : "", file);
+    if (sample_count(chosen) > 1) printf("%s%s\n\n", i ? "\n" : "", file);
     print_description(&descriptions[i]);
   }
   return cli_finish_output();

@@ -1,4 +1,4 @@
-/* The public call for contacts in a file. The first pass is shared with the sum that makes the fabric. */
+/* The public calls for contacts in files. The first pass is shared with the sum that makes the fabric. */
 #include <math.h>
 
 #include "base/message.h"
@@ -11,6 +11,7 @@ typedef struct file_pass {
   description_work *work;
   description_extras extras;
   const particle_list *volumes; /* particles with ids and volumes, during the pass; NULL: none */
+  bool particles_taken;         /* from the first part: all parts have the same */
 } file_pass;
 
 /* Long axes and volumes of the particles looked at. */
@@ -21,6 +22,8 @@ static hypofab_status take_particles(const contact_stream *stream, void *user) {
   const bool positions = list->has & PARTICLE_HAS_POSITION;
   const unsigned needs = PARTICLE_HAS_ID | PARTICLE_HAS_VOLUME;
   if ((list->has & needs) == needs) pass->volumes = list;
+  if (pass->particles_taken) return HYPOFAB_OK;
+  pass->particles_taken = true;
   for (int64_t i = 0; i < list->count; i++) {
     const particle *one = &list->particles[i];
     if (positions && !contact_stream_is_inside(stream, one->position)) continue;
@@ -69,15 +72,30 @@ static hypofab_status read_second(const char *path, const hypofab_contact_format
   return status;
 }
 
-static hypofab_status read_first(const char *path, const hypofab_contact_format *format, file_pass *pass,
-                                 hypofab_fabric *fabric, hypofab_sample *sample) {
+/* Sum one file, and merge it into the sum of those before it, which is NULL at first. */
+static hypofab_status read_part(const char *path, const hypofab_contact_format *format, file_pass *pass,
+                                hypofab_fabric_sum **sum) {
   const fabric_sum_observer observer = {take_particles, take_first, pass};
-  hypofab_fabric_sum *sum;
-  hypofab_status status = fabric_sum_read_observed(path, format, &observer, &sum);
+  hypofab_fabric_sum *part;
+  hypofab_status status = fabric_sum_read_observed(path, format, &observer, &part);
+  pass->volumes = NULL; /* they went with the stream */
+  if (!status && *sum) {
+    status = hypofab_fabric_sum_merge(*sum, part);
+    hypofab_fabric_sum_free(part);
+  } else if (!status) {
+    *sum = part;
+  }
   if (status == HYPOFAB_BAD_ARGUMENT) status = hypofab_fail(status, "%s: %s", path, hypofab_last_message());
+  return status;
+}
+
+static hypofab_status read_first(int n, const char *const *paths, const hypofab_contact_format *format, file_pass *pass,
+                                 hypofab_fabric *fabric, hypofab_sample *sample) {
+  hypofab_fabric_sum *sum = NULL;
+  hypofab_status status = HYPOFAB_OK;
+  for (int i = 0; i < n && !status; i++) status = read_part(paths[i], format, pass, &sum);
   if (!status) status = hypofab_fabric_sum_result(sum, fabric, sample);
   hypofab_fabric_sum_free(sum);
-  pass->volumes = NULL; /* they went with the stream */
   pass->extras.sample = sample;
   if (!status && pass->work->options.volume == 0.0 && sample->volume > 0.0) pass->work->options.volume = sample->volume;
   return status;
@@ -95,7 +113,20 @@ static hypofab_status settle_dimension(hypofab_contact_format *format, hypofab_d
 
 hypofab_status hypofab_describe_file(const char *path, const hypofab_contact_format *format,
                                      const hypofab_describe_options *options, hypofab_description *description) {
-  if (!path || !description) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: a NULL pointer was given");
+  return hypofab_describe_parts(1, &path, format, options, description);
+}
+
+static bool any_missing(int n, const char *const *paths) {
+  for (int i = 0; i < n; i++)
+    if (!paths[i]) return true;
+  return false;
+}
+
+hypofab_status hypofab_describe_parts(int n, const char *const *paths, const hypofab_contact_format *format,
+                                      const hypofab_describe_options *options, hypofab_description *description) {
+  if (n < 1) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: %d files; expected one or more", n);
+  if (!paths || any_missing(n, paths) || !description)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "describe: a NULL pointer was given");
   hypofab_contact_format reading = {0};
   hypofab_describe_options chosen = {0};
   if (format) reading = *format;
@@ -109,9 +140,9 @@ hypofab_status hypofab_describe_file(const char *path, const hypofab_contact_for
   hypofab_status status = settle_dimension(&reading, &chosen);
   if (status) return status;
   status = description_begin(&work, &chosen);
-  if (!status) status = read_first(path, &reading, &pass, &fabric, &sample);
+  if (!status) status = read_first(n, paths, &reading, &pass, &fabric, &sample);
   if (!status) status = description_end_first(&work, &needs_second);
-  if (!status && needs_second) status = read_second(path, &reading, &work);
+  for (int i = 0; i < n && !status && needs_second; i++) status = read_second(paths[i], &reading, &work);
   if (!status) status = description_finish(&work, &fabric, &pass.extras, &found);
   if (!status) *description = found;
   description_free(&work);

@@ -158,6 +158,18 @@ hypofab_status hypofab_describe(const hypofab_contacts *contacts, const hypofab_
 hypofab_status hypofab_describe_file(const char *path, const hypofab_contact_format *format,
                                      const hypofab_describe_options *options, hypofab_description *description);
 
+/**
+ * @brief Describe one sample whose contacts are spread over several files: of ranks, or of parts of a long list.
+ *
+ * What all files carry is taken. Parts with a particle file have the same one; contacts listed in two parts are not
+ * found out.
+ * @param n     files, at least one
+ * @param paths their names
+ * @return as hypofab_describe_file; HYPOFAB_BAD_ARGUMENT also for parts that do not belong together
+ */
+hypofab_status hypofab_describe_parts(int n, const char *const *paths, const hypofab_contact_format *format,
+                                      const hypofab_describe_options *options, hypofab_description *description);
+
 /** Name of component index of a tensor of rank 2 ("xx") or 4 ("xxxx"); NULL when out of range. */
 const char *hypofab_component_name(int rank, int index);
 

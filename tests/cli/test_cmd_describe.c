@@ -118,8 +118,9 @@ static void plane_sample(void **state) {
 /* Paper 002: Z and deviator fabric over snapshots. */
 static void series(void **state) {
   (void)state;
-  const char *first = scratch_write("a,b.txt", "id1 id2 nx ny nz\n0 1 1 0 0\n1 2 0 1 0\n2 0 1 0 0\n");
-  const char *second = scratch_write("second.txt", "id1 id2 nx ny nz\n0 1 1 0 0\n1 2 0 1 0\n");
+  const char *const first = "a,b.txt", *const second = "second.txt"; /* programs run in the scratch folder */
+  scratch_write(first, "id1 id2 nx ny nz\n0 1 1 0 0\n1 2 0 1 0\n2 0 1 0 0\n");
+  scratch_write(second, "id1 id2 nx ny nz\n0 1 1 0 0\n1 2 0 1 0\n");
   program_run run = program("describe", first, second, "--csv", "--plane", "--particles", "3", NULL);
   if (run.exit_code) fail_msg("%s", run.err);
   char *rest = run.out, *head = strsep(&rest, "\n"), *row = strsep(&rest, "\n"), *next = strsep(&rest, "\n");
@@ -143,6 +144,13 @@ static void series(void **state) {
   json_t *root = parse(&run);
   assert_int_equal(json_array_size(root), 2);
   assert_int_equal(number(json_array_get(root, 1), "contacts"), 2);
+  json_decref(root);
+  run_free(&run);
+
+  /* The same files as parts of one sample. */
+  run = program("describe", first, second, "--json", "--together", NULL);
+  root = parse(&run);
+  assert_int_equal(number(root, "contacts"), 5);
   json_decref(root);
   run_free(&run);
 }

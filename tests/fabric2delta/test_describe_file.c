@@ -93,6 +93,37 @@ static void test_region(void **state) {
   assert_near(d.fabric_by_solid_volume[0], 1, 1e-15);
 }
 
+/* Parts of a sample in three files are the whole: particles and volumes are not counted three times. */
+static void test_parts(void **state) {
+  (void)state;
+  const hypofab_contact_format format = {
+      .particle_file = write_text("grains.txt", particles_of_square), .dimension = 2, .volume = 15};
+  const char *const head = "id1 id2 nx ny nz cpx cpy cpz\n", *const rows[4] = {"0 1 1 0 0 0 0 0\n", "1 2 0 1 0 1 1 0\n",
+                                                                               "2 3 1 0 0 0 2 0\n",
+                                                                               "3 0 0 1 0 -1 1 0\n"};
+  char text[3][256];
+  snprintf(text[0], sizeof text[0], "%s%s", head, rows[0]);
+  snprintf(text[1], sizeof text[1], "%s%s%s", head, rows[2], rows[3]);
+  snprintf(text[2], sizeof text[2], "%s%s", head, rows[1]);
+  const char *const parts[3] = {write_text("p0.txt", text[0]), write_text("p1.txt", text[1]),
+                                write_text("p2.txt", text[2])};
+  const hypofab_description whole = describe_file(write_text("square.txt", contacts_of_square), &format);
+  hypofab_description d;
+  if (hypofab_describe_parts(3, parts, &format, NULL, &d)) fail_msg("%s", hypofab_last_message());
+  assert_int_equal(d.fabric.contacts, 4);
+  assert_int_equal(d.fabric.rattlers, 0);
+  assert_near(d.fabric.coordination_number, 2, 0);
+  assert_int_equal(d.long_axes.count, 4);
+  assert_near(d.void_ratio, 0.5, 1e-15);
+  assert_all_near(6, d.fabric_by_solid_volume, whole.fabric_by_solid_volume, 1e-15);
+  assert_all_near(15, d.weighted[0].third4, whole.weighted[0].third4, 1e-14);
+  assert_all_near(45, d.harmonics.coefficient, whole.harmonics.coefficient, 1e-15);
+  assert_all_near(5, d.harmonics.chi_squared, whole.harmonics.chi_squared, 1e-12);
+  const char *const missing[2] = {parts[0], NULL};
+  assert_int_equal(hypofab_describe_parts(2, missing, &format, NULL, &d), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_describe_parts(0, parts, &format, NULL, &d), HYPOFAB_BAD_ARGUMENT);
+}
+
 static void test_refusals(void **state) {
   (void)state;
   hypofab_description d;
@@ -110,6 +141,7 @@ static void test_refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_file_is_memory), cmocka_unit_test(test_particle_list),
-                                     cmocka_unit_test(test_region), cmocka_unit_test(test_refusals)};
+                                     cmocka_unit_test(test_region), cmocka_unit_test(test_parts),
+                                     cmocka_unit_test(test_refusals)};
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
