@@ -107,11 +107,11 @@ static hypofab_status report(const choices *chosen, const char *name, const hypo
   return HYPOFAB_OK;
 }
 
-static hypofab_status report_deck(const choices *chosen, json_t *list, const char **unit, double *sign) {
+/* Every state of the deck, or the one asked for; *found counts them. */
+static hypofab_status report_deck(const choices *chosen, json_t *list, const char **unit, double *sign, int *found) {
   hypofab_study *study;
   hypofab_status status = hypofab_study_load(chosen->deck, &study);
   if (status) return status;
-  int found = 0;
   *unit = hypofab_study_unit(study);
   *sign = hypofab_study_sign(study);
   for (int i = 0; i < hypofab_study_state_count(study) && !status; i++) {
@@ -121,10 +121,10 @@ static hypofab_status report_deck(const choices *chosen, json_t *list, const cha
     hypofab_state state;
     status = hypofab_study_state(study, i, &material, &state);
     if (!status) status = report(chosen, name, &material, &state, *sign, *unit, list);
-    found++;
+    ++*found;
   }
   hypofab_study_free(study);
-  return status || found ? status : HYPOFAB_BAD_ARGUMENT;
+  return status;
 }
 
 int cmd_stability(int argc, char **argv) {
@@ -139,23 +139,23 @@ int cmd_stability(int argc, char **argv) {
   const char *unit = "kPa";
   double sign = chosen.state.compression_positive ? -1.0 : 1.0;
   hypofab_status status;
+  int found = 0;
   if (chosen.deck) {
-    status = report_deck(&chosen, list, &unit, &sign);
+    status = report_deck(&chosen, list, &unit, &sign, &found);
   } else {
     hypofab_material material;
     hypofab_state state;
     status = state_options_resolve(&chosen.state, &material, &state);
     if (!status) status = report(&chosen, chosen.state.sand, &material, &state, sign, unit, list);
   }
-  if (status) {
+  if (!status && chosen.deck && !found) {
     json_decref(list);
-    if (status != HYPOFAB_BAD_ARGUMENT || !chosen.state_name) return cli_exit(status);
     fprintf(stderr, "hypofab: %s: no state '%s' in this deck\n", chosen.deck, chosen.state_name);
     return CLI_BAD_INPUT;
   }
-  if (!chosen.json) {
+  if (status || !chosen.json) {
     json_decref(list);
-    return cli_finish_output();
+    return status ? cli_exit(status) : cli_finish_output();
   }
   return print_json(json_pack("{s:s, s:s, s:o}", "unit", unit, "sign",
                               sign < 0.0 ? "compression_positive" : "tension_positive", "states", list));
