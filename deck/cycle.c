@@ -70,6 +70,7 @@ hypofab_status step_resolve_stops(const hypofab_study *study, const deck_source 
         study_resolve_quantity(source, step_key(place, ".stop[%u].quantity", i), entry->quantity, &stop->mark.quantity);
     if (status) return status;
     stop->measure = entry->measure ? (hypofab_measure)*entry->measure : HYPOFAB_LEVEL;
+    stop->ends_test = entry->ends ? *entry->ends : 0;
     const bool is_level = stop->measure == HYPOFAB_LEVEL;
     stop->mark.value = (is_level ? study_quantity_sign(study, stop->mark.quantity) : 1) * entry->value;
     if (!is_level && !(entry->value > 0))

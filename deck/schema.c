@@ -24,6 +24,7 @@ static const cyaml_strval_t imposed_names[] = {{"strain", HYPOFAB_IMPOSE_STRAIN}
 static const cyaml_strval_t drive_names[] = {{"strain", 0}, {"stress", 1}};
 static const cyaml_strval_t keep_names[] = {
     {"all", HYPOFAB_KEEP_ALL}, {"reversals", HYPOFAB_KEEP_REVERSALS}, {"end", HYPOFAB_KEEP_END}};
+static const cyaml_strval_t ends_names[] = {{"step", 0}, {"test", 1}};
 static const cyaml_strval_t measure_names[] = {
     {"level", HYPOFAB_LEVEL}, {"change", HYPOFAB_CHANGE}, {"double_amplitude", HYPOFAB_DOUBLE_AMPLITUDE}};
 static const cyaml_strval_t axis_names[] = {{"x", 0}, {"y", 1}, {"z", 2}};
@@ -120,7 +121,7 @@ static const cyaml_schema_field_t cycle_fields[] = {TEXT("quantity", deck_cycle,
 
 static const cyaml_schema_field_t stop_fields[] = {
     TEXT("quantity", deck_stop, quantity), CYAML_FIELD_FLOAT("value", CYAML_FLAG_DEFAULT, deck_stop, value),
-    CHOICE("measure", deck_stop, measure, measure_names), CYAML_FIELD_END};
+    CHOICE("measure", deck_stop, measure, measure_names), CHOICE("ends", deck_stop, ends, ends_names), CYAML_FIELD_END};
 static const cyaml_schema_value_t stop_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_stop, stop_fields)};
 
 const char *const deck_preset_keys[DECK_N_PRESET_NUMBERS] = {"rate",   "lode",   "b",      "alpha",     "stiffness",

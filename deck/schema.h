@@ -114,6 +114,7 @@ typedef struct deck_stop {
   char *quantity;
   double value;
   int *measure;
+  int *ends; /**< 0: the step; 1: the test */
 } deck_stop;
 
 /** Parameters of presets by name, in the order of deck_preset_keys. */

@@ -112,6 +112,7 @@ hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_
   for (int i = 0; !status && i < n_steps; i++) {
     r.step_number = i;
     status = run_step(&r, &steps[i]);
+    if (!status && r.stop >= 0 && steps[i].stops[r.stop].ends_test) break;
   }
   if (outcome) {
     memset(outcome, 0, sizeof *outcome);

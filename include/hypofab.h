@@ -358,6 +358,7 @@ typedef enum hypofab_measure {
 typedef struct hypofab_stop {
   hypofab_mark mark;
   hypofab_measure measure;
+  int ends_test; /**< non-zero: the steps after it are left out, with HYPOFAB_OK */
 } hypofab_stop;
 
 /** Most stops of a step. */

@@ -163,6 +163,23 @@ static void summaries_say_what_ended_a_step(void **state) {
   table_free(&t);
 }
 
+/* A stop that ends the test leaves the steps after it out. */
+static void a_stop_can_end_the_test(void **state) {
+  (void)state;
+  table t =
+      run_steps(1,
+                "      - {preset: drained_triaxial_compression, axis: z, until: {quantity: eps_zz, value: -0.01}, "
+                "stop: [{quantity: q, value: 60, ends: test}]}\n"
+                "      - {preset: drained_triaxial_extension, axis: z, until: {quantity: time, value: 1}}\n");
+  assert_true(table_at(&t, -1, "event") == 3 && fabs(table_at(&t, -1, "q") - 60) < 1e-8);
+  json_t *summary = summary_read(scratch_path("out"));
+  const json_t *test = summary_test(summary, 0);
+  assert_true(json_integer_value(json_object_get(test, "status")) == 0);
+  assert_int_equal(json_array_size(json_object_get(test, "steps")), 1);
+  json_decref(summary);
+  table_free(&t);
+}
+
 /* A test that cannot go on: status, message with state and advice, last row. */
 static void an_early_stop_is_in_message_summary_and_rows(void **state) {
   (void)state;
@@ -281,6 +298,7 @@ int main(void) {
       TEST(steps_mean_the_same_under_either_sign),
       TEST(tables_are_followed),
       TEST(summaries_say_what_ended_a_step),
+      TEST(a_stop_can_end_the_test),
       TEST(an_early_stop_is_in_message_summary_and_rows),
       TEST(wrong_steps_are_refused),
   };

@@ -199,10 +199,10 @@ static void test_stops(void **unused) {
       (hypofab_cycle){.count = 1000, .quantity = HYPOFAB_Q_SIGNED, .lower = -60, .upper = 60, .relative = 1};
   steps[0].rows = 20;
   const hypofab_stop stops[] = {
-      {{HYPOFAB_PORE_PRESSURE_RATIO, 0.6}, HYPOFAB_LEVEL},
-      {{HYPOFAB_EPS_ZZ, 0.002}, HYPOFAB_DOUBLE_AMPLITUDE},
-      {{HYPOFAB_PORE_PRESSURE, 50.0}, HYPOFAB_CHANGE},
-      {{HYPOFAB_EPS_PATH, 0.05}, HYPOFAB_LEVEL},
+      {{HYPOFAB_PORE_PRESSURE_RATIO, 0.6}, HYPOFAB_LEVEL, 0},
+      {{HYPOFAB_EPS_ZZ, 0.002}, HYPOFAB_DOUBLE_AMPLITUDE, 0},
+      {{HYPOFAB_PORE_PRESSURE, 50.0}, HYPOFAB_CHANGE, 0},
+      {{HYPOFAB_EPS_PATH, 0.05}, HYPOFAB_LEVEL, 0},
   };
   steps[1].until = (hypofab_mark){HYPOFAB_TIME, 100.0};
   steps[1].rows = 10;
@@ -210,7 +210,7 @@ static void test_stops(void **unused) {
   for (int i = 0; i < 4; i++) {
     recorder r = {0};
     hypofab_test_outcome outcome;
-    steps[0].stops[0] = (hypofab_stop){{HYPOFAB_P, 1.0}, HYPOFAB_LEVEL}; /* later than all of them */
+    steps[0].stops[0] = (hypofab_stop){{HYPOFAB_P, 1.0}, HYPOFAB_LEVEL, 0}; /* later than all of them */
     steps[0].stops[1] = stops[i];
     steps[0].n_stops = 2;
     assert_int_equal(hypofab_test_run(&material, &state, steps, 2, NULL, recorder_take, &r, &outcome), HYPOFAB_OK);
@@ -236,6 +236,14 @@ static void test_stops(void **unused) {
     recorder_clear(&r);
   }
   assert_true(most_cycles > 1.0);
+  recorder r = {0};
+  hypofab_test_outcome outcome;
+  steps[0].stops[1] = stops[0];
+  steps[0].stops[1].ends_test = 1;
+  assert_int_equal(hypofab_test_run(&material, &state, steps, 2, NULL, recorder_take, &r, &outcome), HYPOFAB_OK);
+  assert_int_equal(outcome.step, 0);
+  assert_int_equal(r.rows[r.n - 1].event, HYPOFAB_EVENT_STOP);
+  recorder_clear(&r);
 }
 
 /* A quantity that meets a value and turns back inside one large step of the integrator is not missed. */
@@ -293,10 +301,10 @@ static void test_cycles_that_cannot_be(void **unused) {
   }
   step.cycle.count = 0;
   step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.01};
-  const hypofab_stop bad_stops[] = {{{(hypofab_quantity)999, 1.0}, HYPOFAB_LEVEL},
-                                    {{HYPOFAB_P, NAN}, HYPOFAB_LEVEL},
-                                    {{HYPOFAB_P, 0.0}, HYPOFAB_CHANGE},
-                                    {{HYPOFAB_P, 1.0}, (hypofab_measure)9}};
+  const hypofab_stop bad_stops[] = {{{(hypofab_quantity)999, 1.0}, HYPOFAB_LEVEL, 0},
+                                    {{HYPOFAB_P, NAN}, HYPOFAB_LEVEL, 0},
+                                    {{HYPOFAB_P, 0.0}, HYPOFAB_CHANGE, 0},
+                                    {{HYPOFAB_P, 1.0}, (hypofab_measure)9, 0}};
   step.n_stops = 1;
   for (size_t i = 0; i < sizeof bad_stops / sizeof *bad_stops; i++) {
     step.stops[0] = bad_stops[i];

@@ -97,7 +97,7 @@ static void test_liquefaction(void **unused) {
   assert_non_null(strstr(hypofab_status_text(HYPOFAB_LIQUEFACTION), "liquefaction"));
   recorder_clear(&r);
   /* A stop before it, and the test is done. */
-  step.stops[0] = (hypofab_stop){{HYPOFAB_PORE_PRESSURE_RATIO, 0.95}, HYPOFAB_LEVEL};
+  step.stops[0] = (hypofab_stop){{HYPOFAB_PORE_PRESSURE_RATIO, 0.95}, HYPOFAB_LEVEL, 0};
   step.n_stops = 1;
   assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, NULL), HYPOFAB_OK);
   assert_int_equal(r.rows[r.n - 1].event, HYPOFAB_EVENT_STOP);

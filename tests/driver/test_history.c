@@ -82,7 +82,7 @@ static void test_mixed(void **unused) {
     assert_true(fabs(r.rows[i].value[HYPOFAB_EPS_XZ] - values[i][4]) < 1e-14);
   }
   recorder_clear(&r);
-  step.stops[0] = (hypofab_stop){{HYPOFAB_EPS_XZ, 0.5e-3}, HYPOFAB_LEVEL};
+  step.stops[0] = (hypofab_stop){{HYPOFAB_EPS_XZ, 0.5e-3}, HYPOFAB_LEVEL, 0};
   step.n_stops = 1;
   assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, NULL), HYPOFAB_OK);
   assert_int_equal(r.rows[r.n - 1].event, HYPOFAB_EVENT_STOP);
