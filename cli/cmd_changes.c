@@ -27,7 +27,7 @@ static const struct argp_option options[] = {
      .doc = "Directions alpha of the strain probes, one for each AFTER: eps_xx = |eps| cos alpha, eps_yy = |eps| sin "
             "alpha; 'hold' for one without strain. From three probes on, the response is fitted"},
     {.name = "strain", .key = KEY_STRAIN, .arg = "NUMBER", .doc = "Size |eps| of the probes, with --angles"},
-    {.name = "plane",
+    {.name = "probe-axes",
      .key = KEY_PLANE,
      .arg = "AXES",
      .doc = "Axes that stand for x and y of probes and histograms: xy (default), yx, xz, ..."},
@@ -64,7 +64,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       return 0;
     case KEY_PLANE:
       if (strlen(text) != 2 || text[0] == text[1] || strspn(text, "xyz") != 2)
-        argp_error(state, "--plane: '%s'; expected two different axes, as in xy", text);
+        argp_error(state, "--probe-axes: '%s'; expected two different axes, as in xy", text);
       chosen->plane = text;
       return 0;
     case KEY_BINS: {

@@ -83,6 +83,7 @@ hypofab_status hypofab_snapshot_read(const char *path, const hypofab_contact_for
 
 void hypofab_snapshot_free(hypofab_snapshot *snapshot) {
   if (!snapshot) return;
+  id_counts_free(&snapshot->ends);
   free(snapshot->contacts.items);
   free(snapshot);
 }

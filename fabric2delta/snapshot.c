@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "fabric2delta/fabric.h"
-#include "fabric2delta/id_counts.h"
 
 static int order_of(const contact_pair *left, const contact_pair *right) {
   if (left->low != right->low) return left->low < right->low ? -1 : 1;
@@ -64,11 +63,24 @@ static snapshot_problem sort(kept_contacts *list, contact_pair *twice) {
   return SNAPSHOT_OK;
 }
 
+/* A wall has contacts, but is no particle. */
+static snapshot_problem count_ends(id_counts *ends, const contact *one) {
+  const int64_t ids[2] = {one->id1, one->id2};
+  for (int k = 0; k < 2; k++) {
+    if (one->has & (k ? CONTACT_WALL_2 : CONTACT_WALL_1)) continue;
+    uint32_t *count = id_counts_enter(ends, ids[k]);
+    if (!count) return SNAPSHOT_NO_MEMORY;
+    ++*count;
+  }
+  return SNAPSHOT_OK;
+}
+
 snapshot_problem snapshot_add(hypofab_snapshot *snapshot, const contact *block, size_t n, size_t *refused) {
   for (size_t i = 0; i < n; i++) {
     contact_pair pair;
     snapshot_problem problem = pair_of(&block[i], snapshot->ignore_images, &pair);
     if (!problem) problem = keep(&snapshot->contacts, &pair, block[i].normal);
+    if (!problem) problem = count_ends(&snapshot->ends, &block[i]);
     if (problem) {
       *refused = i;
       return problem;
@@ -78,23 +90,9 @@ snapshot_problem snapshot_add(hypofab_snapshot *snapshot, const contact *block, 
 }
 
 snapshot_problem snapshot_seal(hypofab_snapshot *snapshot, contact_pair *twice) {
-  snapshot_problem problem = sort(&snapshot->contacts, twice);
-  if (problem) return problem;
-  id_counts counts = {0};
-  for (size_t i = 0; i < snapshot->contacts.count && !problem; i++) {
-    const contact_pair *pair = &snapshot->contacts.items[i].pair;
-    const int64_t ids[2] = {pair->low, pair->high};
-    for (int k = 0; k < 2; k++) {
-      uint32_t *count = id_counts_enter(&counts, ids[k]);
-      if (count)
-        ++*count;
-      else
-        problem = SNAPSHOT_NO_MEMORY;
-    }
-  }
-  snapshot->particles = (int64_t)counts.used - id_counts_with(&counts, 1);
-  id_counts_free(&counts);
-  return problem;
+  snapshot->particles = (int64_t)snapshot->ends.used - id_counts_with(&snapshot->ends, 1);
+  id_counts_free(&snapshot->ends);
+  return sort(&snapshot->contacts, twice);
 }
 
 snapshot_comparison snapshot_compare(hypofab_snapshot *before) {

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "fabric2delta/contact.h"
+#include "fabric2delta/id_counts.h"
 #include "hypofab.h"
 
 /** What tells two contacts apart. */
@@ -35,6 +36,7 @@ typedef struct kept_contacts {
 struct hypofab_snapshot {
   kept_contacts contacts; /**< ordered by pair once snapshot_seal was called */
   bool ignore_images;
+  id_counts ends;    /**< contacts of each particle, walls left out; until snapshot_seal */
   int64_t particles; /**< those with two contacts or more */
   int compared;      /**< later states begun */
 };

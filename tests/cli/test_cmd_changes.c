@@ -15,7 +15,7 @@
 #define PROBE(name) HYPOFAB_SOURCE_DIR "/examples/data/probes/" name ".txt.gz"
 #define FAN                                                                                                      \
   "changes", PROBE("before"), PROBE("000"), PROBE("045"), PROBE("180"), PROBE("225"), PROBE("hold"), "--angles", \
-      "0,45,180,225,hold", "--strain", "2.000289e-4", "--plane", "yx"
+      "0,45,180,225,hold", "--strain", "2.000289e-4", "--probe-axes", "yx"
 
 static json_t *parse(const char *text) {
   json_error_t error;
@@ -107,7 +107,7 @@ static void wrong_usage_has_exit_code_2(void **state) {
                {{PROBE("before"), PROBE("000"), "--strain=-1"}, "> 0"},
                {{PROBE("before"), PROBE("000"), "--angles", "0,1", "--strain=1"}, "one for each AFTER"},
                {{PROBE("before"), PROBE("000"), "--angles", "up", "--strain=1"}, "'up'"},
-               {{PROBE("before"), PROBE("000"), "--plane", "xx"}, "two different axes"},
+               {{PROBE("before"), PROBE("000"), "--probe-axes", "xx"}, "two different axes"},
                {{PROBE("before"), PROBE("000"), "--bins", "0"}, "whole number"},
                {{PROBE("before"), PROBE("000"), "--csv", "--json"}, "one of"},
                {{PROBE("before"), PROBE("000"), "--N", "1,0,0,0,0,0"}, "--N"},

@@ -98,6 +98,21 @@ static void test_images(void **state) {
   assert_null(snapshot);
 }
 
+/* A wall has contacts like a particle, but is none. */
+static void test_walls(void **state) {
+  (void)state;
+  const hypofab_contact_format walls_in = {.walls = HYPOFAB_WALLS_IN, .wall_ids = "7-8"};
+  const char *before = write_text("before.txt", "id1 id2 nx ny nz\n1 2 1 0 0\n1 7 0 1 0\n2 7 0 1 0\n3 7 0 1 0\n");
+  const char *after = write_text("after.txt", "id1 id2 nx ny nz\n1 2 1 0 0\n1 7 0 1 0\n3 8 0 1 0\n");
+  hypofab_snapshot *snapshot;
+  hypofab_fabric_change change;
+  if (hypofab_snapshot_read(before, &walls_in, 0, &snapshot)) fail_msg("%s", hypofab_last_message());
+  assert_int_equal(hypofab_snapshot_compare(snapshot, after, &walls_in, NULL, &change), HYPOFAB_OK);
+  assert_counts(&change, 2, 1, 2);
+  assert_int_equal(change.particles, 2); /* 1 and 2; 3 has one contact */
+  hypofab_snapshot_free(snapshot);
+}
+
 static void refuse_after(const char *text, const char *reason) {
   hypofab_snapshot *snapshot = read_snapshot(write_text("before.txt", before_text), 0);
   hypofab_fabric_change change;
@@ -257,9 +272,9 @@ static void test_rose(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_by_hand), cmocka_unit_test(test_images),    cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_probes),  cmocka_unit_test(test_backwards), cmocka_unit_test(test_fan),
-      cmocka_unit_test(test_rose),
+      cmocka_unit_test(test_by_hand),  cmocka_unit_test(test_images), cmocka_unit_test(test_walls),
+      cmocka_unit_test(test_refusals), cmocka_unit_test(test_probes), cmocka_unit_test(test_backwards),
+      cmocka_unit_test(test_fan),      cmocka_unit_test(test_rose),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
