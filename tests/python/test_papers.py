@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hypofab import papers
-from hypofab.papers import paper_001, paper_003
+from hypofab.papers import paper_001, paper_003, paper_004
 from hypofab.papers.element import SMALL, Loading, element_tests, secants
 from hypofab.papers.runs import read_curve, read_dem
 from hypofab.results import ResultError
@@ -45,7 +45,16 @@ def test_anisotropies_tell_the_friction() -> None:
     assert contacts == pytest.approx(walls, abs=0.05)
 
 
-@pytest.mark.parametrize("paper", ["003"])
+def test_plastic_flow_at_failure_has_one_direction() -> None:
+    for lode in (20, 40, 60):
+        state = paper_004.read_failure(RESULTS / "004" / f"lode{lode}")
+        axes, shares = state.flow
+        assert shares[0] > 0.99
+        assert np.argmax(axes[0]) == 0  # extension along x, the direction of the smallest compression
+        assert np.argmin(-state.stress) == np.argmin(state.fabric()) == 0
+
+
+@pytest.mark.parametrize("paper", ["002", "003", "004"])
 def test_every_paper_has_a_table_and_figures(paper: str, tmp_path: Path) -> None:
     assert papers.compare(paper, RESULTS / paper, tmp_path).count("|") > 50
     assert list(tmp_path.glob(f"{paper}_*.png"))

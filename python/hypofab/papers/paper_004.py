@@ -122,7 +122,7 @@ def figure(states: list[Failure], path: Path) -> None:
             ylabel="plastic strain along it per kPa [1e-6]",
         )
         fabric.plot(0, 0, "+", color="black")
-        fabric.set(title="stress (dots), N (squares), N sliding (triangles)")
+        fabric.set(title="stress (dots), N, sliding N (triangles)")
         fabric.set_aspect("equal", adjustable="datalim")
 
 
