@@ -96,14 +96,14 @@ def element_cycles(tests: dict[str, Cycles]) -> dict[str, tuple[Array, Array]]:
     return {test.name: (np.arange(len(test.strain[::2])), -test.strain[::2, 1]) for test in results}
 
 
-def consolidation(runs: Path) -> tuple[str, list[tuple[str, float, float]]]:
-    """Fabric after deposition and after both consolidations: a table, and name, Z, deviator fabric of each."""
+def consolidation(runs: Path) -> tuple[str, list[float]]:
+    """Fabric after deposition and consolidation: a table, and the deviator fabric of each state."""
     rows, values = [], []
     for name, title in CONSOLIDATIONS.items():
         if not (runs / name).exists():
             continue
         r = read_dem(runs / name).results
-        values.append((title, r["coordination_number"], r["anisotropy"] / 2))
+        values.append(r["anisotropy"] / 2)
         rows.append(
             [
                 title,
@@ -161,9 +161,8 @@ def compare(runs: Path, out: Path) -> str:
         fabric.set(title=r"deviator fabric $\Phi_1 - \Phi_2$")
         for axes in (strain, elements, number, fabric):
             axes.set_xlabel("cycle")
-        for title, _, deviator in values:
-            fabric.axhline(deviator, color="0.6", linewidth=0.8)
-            fabric.annotate(title, (0, deviator), fontsize=6, va="bottom")
+        for deviator in values:
+            fabric.axhline(deviator, color="0.7", linewidth=0.8)
         strain.legend()
     head = ["test", "cycles", "dt/s'", "strain of the first cycle [%]", "from then to the last", "per cycle, last ten"]
     head += ["amplitude [%]", "Z, start and end", "deviator fabric", "element test [%]"]
