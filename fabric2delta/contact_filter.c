@@ -68,7 +68,7 @@ hypofab_status contact_filter_make(contact_filter *filter, const hypofab_contact
     contact_filter_free(filter);
     return status;
   }
-  filter->idle = !with_ids && !region;
+  filter->idle = !region && !(with_ids && (listed || format->wall_ids));
   return HYPOFAB_OK;
 }
 
@@ -120,7 +120,7 @@ static void complete(const contact_filter *filter, contact *one) {
 }
 
 contact_verdict contact_filter_apply(const contact_filter *filter, contact *one) {
-  if (filter->idle) return VERDICT_USE;
+  if (filter->idle && (!(one->has & CONTACT_HAS_IDS) || (one->id1 >= 0 && one->id2 >= 0))) return VERDICT_USE;
   const hypofab_contact_format *format = filter->format;
   if (one->has & CONTACT_HAS_IDS) {
     const bool wall1 = is_wall(filter, one->id1), wall2 = is_wall(filter, one->id2);

@@ -31,7 +31,7 @@ typedef struct contact_filter {
   double length[3];               /**< of the periodic cell; 0: not periodic */
   id_range *walls;
   int n_walls;
-  bool idle;          /**< every contact is used as it is */
+  bool idle;          /**< every contact whose ids are not negative is used as it is */
   bool adds_branch;   /**< from the centres of the particle list */
   bool adds_position; /**< from a centre and its radius */
 } contact_filter;

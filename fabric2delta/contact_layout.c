@@ -131,7 +131,8 @@ contact_problem contact_of_row(const contact_layout *layout, const table_value v
     problem = !(isfinite(one->normal[0]) && isfinite(one->normal[1]) && isfinite(one->normal[2])) ? CONTACT_NOT_FINITE
               : length == 0.0                                                                     ? CONTACT_ZERO_NORMAL
                                                                                                   : CONTACT_NOT_UNIT;
-  for (int i = 0; i < 3; i++) one->normal[i] /= length;
+  const double inverse = 1.0 / length;
+  for (int i = 0; i < 3; i++) one->normal[i] *= inverse;
   read_forces(layout, values, layout->force_on_1 ? -wall : wall, one);
   if (has[ROLE_AREA]) one->area = values[ROLE_AREA].real;
   if (has[ROLE_X1] && has[ROLE_R1] && !has[ROLE_PX]) {
@@ -139,7 +140,8 @@ contact_problem contact_of_row(const contact_layout *layout, const table_value v
     for (int i = 0; i < 3; i++) one->position[i] += values[ROLE_R1].real * one->normal[i];
   }
   if (problem) return problem;
-  if (!all_finite(one)) return CONTACT_NOT_FINITE;
+  /* A normal of finite length is finite. */
+  if (layout->has & ~(CONTACT_HAS_IDS | CONTACT_HAS_CELL) && !all_finite(one)) return CONTACT_NOT_FINITE;
   if (has[ROLE_ID1] && one->id1 == one->id2 && !(one->cell[0] || one->cell[1] || one->cell[2]))
     return CONTACT_WITH_ITSELF;
   if (layout->both_sides && one->id2 >= 0 && one->id1 > one->id2) return CONTACT_LEFT_OUT;

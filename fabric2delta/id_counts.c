@@ -1,5 +1,6 @@
 #include "fabric2delta/id_counts.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 enum { FIRST_SLOTS = 256, BLOCK_PAGES = 256 };
@@ -52,14 +53,22 @@ uint32_t *id_counts_find(const id_counts *counts, int64_t id) {
   return page->present >> id % ID_PAGE & 1 ? &page->count[id % ID_PAGE] : NULL;
 }
 
-uint32_t *id_counts_enter(id_counts *counts, int64_t id) {
+/* The page of a number, made when new; NULL when memory ran out. */
+static id_page *enter_page(id_counts *counts, int64_t number) {
   if (2 * counts->pages >= counts->size && grow(counts)) return NULL;
-  id_slot *slot = place_of(counts->slots, counts->size, id / ID_PAGE);
+  id_slot *slot = place_of(counts->slots, counts->size, number);
   if (slot->page < 0) {
     if (add_block(counts)) return NULL;
-    *slot = (id_slot){.page = id / ID_PAGE, .index = (uint32_t)counts->pages++};
+    *slot = (id_slot){.page = number, .index = (uint32_t)counts->pages++};
   }
-  id_page *page = page_at(counts, slot->index);
+  counts->last_number = number;
+  return counts->last_page = page_at(counts, slot->index);
+}
+
+uint32_t *id_counts_enter(id_counts *counts, int64_t id) {
+  const bool known = counts->last_page && counts->last_number == id / ID_PAGE;
+  id_page *page = known ? counts->last_page : enter_page(counts, id / ID_PAGE);
+  if (!page) return NULL;
   const uint64_t bit = UINT64_C(1) << id % ID_PAGE;
   counts->used += !(page->present & bit);
   page->present |= bit;

@@ -31,7 +31,9 @@ typedef struct id_counts {
   size_t size;      /**< places for pages, a power of two */
   id_page **blocks; /**< pages, in blocks that never move */
   size_t pages;
-  size_t used; /**< different ids */
+  size_t used;         /**< different ids */
+  int64_t last_number; /**< page entered last; contacts of neighbours stand together in most lists */
+  id_page *last_page;  /**< NULL: none */
 } id_counts;
 
 /** The count of an id, or NULL when the id is not in the table. */

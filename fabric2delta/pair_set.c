@@ -64,7 +64,7 @@ static int make_room(pair_set *set) {
 }
 
 void pair_set_prepare(const pair_set *set, uint64_t hash) {
-  if (set->size) __builtin_prefetch(&set->hashes[(size_t)(hash >> 16) & (set->size - 1)], 1);
+  if (set->size && is_looked_at(set, hash)) __builtin_prefetch(&set->hashes[(size_t)(hash >> 16) & (set->size - 1)], 1);
 }
 
 int pair_set_enter(pair_set *set, uint64_t hash, bool *again) {
