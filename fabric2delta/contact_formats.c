@@ -117,7 +117,9 @@ void contact_chunk_free(contact_chunk *chunk) {
 const char *contact_problem_text(contact_problem problem, const char **expected) {
   switch (problem) {
     case CONTACT_WITH_ITSELF: *expected = "a contact of two different particles"; return "is the same particle as id1";
-    case CONTACT_UNKNOWN_ID: *expected = "an id of the particle list"; return "is not in the particle list";
+    case CONTACT_UNKNOWN_ID:
+      *expected = "an id of the particle list, 0 or more; contacts with walls are to be told in or out";
+      return "is not in the particle list";
     case CONTACT_DUPLICATE:
       *expected = "every contact once";
       return "was in contact with the same particle, through the same periodic image, before";
