@@ -24,7 +24,7 @@ module umat_influence
     real(wp) :: integral = 0.0_wp !< of kappa_slope over the path's parameter, from the start of the branch
   end type influence_type
 
-  !> Passes before the step is given up as too long.
+  !> Most passes; a step that needs more is too long.
   integer, parameter :: most_passes = 20
   !> Parts of the tolerance for what further passes would change, and for what the nodes leave out.
   real(wp), parameter :: enough = 0.05_wp, share = 0.1_wp
@@ -88,11 +88,11 @@ contains
       at_end = size_of(y(:, :, n)) + left / nodes%strain(n) * size_of(total(:, :, n))
       ! The first change is at most of the order of the change of stress, and the changes fall faster than geometrically.
       if (pass > 1 .and. change * change <= enough * leg%tolerance * at_end * previous) exit
-      if (pass == most_passes) return
       previous = change
     end do
     call decay([size_of(mode(0)), size_of(mode(1)), size_of(mode(2))], highest, ratio)
     error = highest * ratio**n / (share * at_end) ! the rule misses mode 2 n
+    if (pass > most_passes) error = max(error, change / at_end)
     influence%on_stress = y(:, :, n) + (end - 1.0_wp) * total(:, :, n)
     influence%integral = integral(n) + (end - 1.0_wp) * slope(n)
 

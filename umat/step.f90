@@ -46,6 +46,9 @@ module umat_step
   real(wp), parameter :: worth_trying = 0.7_wp, too_many_sweeps = 0.4_wp
   !> Bounds of the change of a step, and the part of it that is taken.
   real(wp), parameter :: least_growth = 0.1_wp, most_growth = 5.0_wp, safety = 0.9_wp
+  !> Steps below this part of the leg are accepted whatever the error of the tangent: where the stress nearly vanishes its
+  !> derivative has no bound, and the stress must not fail for that.
+  real(wp), parameter :: tangent_gives_way = 1.0e-3_wp
   !> A correction of this part of the stress is rounding: nothing can be told from how it compares with the one before.
   real(wp), parameter :: rounding = 1.0e2_wp * epsilon(1.0_wp)
   !> Where a last step ends may be off the last node by this part of the root of the tolerance: an Euler step makes up for it,
@@ -181,7 +184,7 @@ contains
     influence = step%influence
     call influence_step(m, rules(step%rule), leg, step%x, step%h, step%done, step%end, step%nodes, tensors, &
                         influence, error)
-    accepted = error <= leg%tolerance
+    accepted = error <= leg%tolerance .or. step%nodes%length(n) < tangent_gives_way * leg%length
     if (accepted) step%influence = influence
     if (.not. accepted) growth = min(0.9_wp, growth, growth_of(error / leg%tolerance, n + 3))
   end subroutine try
