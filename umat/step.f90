@@ -48,7 +48,7 @@ module umat_step
   real(wp), parameter :: least_growth = 0.1_wp, most_growth = 5.0_wp, safety = 0.9_wp
   !> Steps below this part of the leg are accepted whatever the error of the tangent: where the stress nearly vanishes its
   !> derivative has no bound, and the stress must not fail for that.
-  real(wp), parameter :: tangent_gives_way = 1.0e-3_wp
+  real(wp), parameter :: tangent_gives_way = 1.0e-8_wp
   !> A correction of this part of the stress is rounding: nothing can be told from how it compares with the one before.
   real(wp), parameter :: rounding = 1.0e2_wp * epsilon(1.0_wp)
   !> Where a last step ends may be off the last node by this part of the root of the tolerance: an Euler step makes up for it,
