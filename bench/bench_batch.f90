@@ -2,7 +2,9 @@
 !> run, for every instruction set that the processor has; and the error reached.
 !>
 !> Random states of one sand, as in bench_model: delta zero, partial or fully mobilised, random directions of strain. And
-!> the states after ten increments in the same direction, as an explicit code meets them most.
+!> the states after ten increments in the same direction, as an explicit code meets them most. The first argument is the
+!> tolerance (1e-6): what counts is the error reached. Times are processor times, the best of many: others may use the
+!> machine too.
 program bench_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t
   use, intrinsic :: iso_fortran_env, only: int64
@@ -25,7 +27,7 @@ program bench_batch
     end function best_instructions
   end interface
 
-  integer, parameter :: n_points = 1280, group = 128, n_repeats = 40
+  integer, parameter :: n_points = 1280, n_repeats = 40
   integer(int64), parameter :: stride = n_points
   character(len=8), parameter :: names(0:2) = [character(len=8) :: 'portable', 'avx2', 'avx512']
   real(wp), parameter :: sizes(5) = [1.0e-7_wp, 1.0e-6_wp, 1.0e-5_wp, 1.0e-4_wp, 1.0e-3_wp]
@@ -36,10 +38,16 @@ program bench_batch
 
   type(points_type) :: start, worn
   type(material_type) :: m
-  real(wp) :: directions(n_points, 6), rate_cost
+  real(wp) :: directions(n_points, 6), rate_cost, tolerance
+  character(len=32) :: argument
   integer :: i, set
 
   m = material_from_props(sands(find_sand('paper000'))%props)
+  tolerance = 1.0e-6_wp
+  if (command_argument_count() > 0) then
+    call get_command_argument(1, argument)
+    read (argument, *) tolerance
+  end if
   call make_points()
   call time_rates(rate_cost)
   write (*, '(a, f0.1, a)') 'one scalar rate: ', rate_cost, ' ns'
@@ -84,12 +92,12 @@ contains
     end do
   end subroutine make_points
 
-  !> Cost of a scalar rate [ns]: like every time here the best of many, since others use the machine too.
+  !> Cost of a scalar rate [ns].
   subroutine time_rates(cost)
     real(wp), intent(out) :: cost
     type(state_type) :: rate, states(n_points)
     real(wp) :: d(6, n_points), sink
-    integer(int64) :: began, ended, ticks
+    real(wp) :: began, ended
     integer :: k, j, branch, status
     do k = 1, n_points
       states(k) = state_type(start%stress(k, :), start%delta(k, :), start%void_ratio(k))
@@ -98,13 +106,13 @@ contains
     sink = 0.0_wp
     cost = huge(cost)
     do j = 1, 200
-      call system_clock(began, ticks)
+      call cpu_time(began)
       do k = 1, n_points
         call state_rate(m, states(k), d(:, k), rate, branch, status)
         sink = sink + rate%stress(1)
       end do
-      call system_clock(ended)
-      cost = min(cost, 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / n_points)
+      call cpu_time(ended)
+      cost = min(cost, 1.0e9_wp * (ended - began) / n_points)
     end do
     if (abs(sink) > huge(sink)) write (*, *) sink ! keeps the loop
   end subroutine time_rates
@@ -120,7 +128,7 @@ contains
     end do
   end subroutine wear
 
-  !> All points, group by group.
+  !> All points.
   subroutine update_all(set, points, strain, status, evaluations, scalar)
     integer, intent(in) :: set
     type(points_type), intent(inout) :: points
@@ -128,13 +136,9 @@ contains
     integer(c_int), intent(out) :: status(n_points)
     integer(c_int), intent(out) :: evaluations(n_points)
     integer(c_int64_t), intent(out) :: scalar
-    integer :: k
     scalar = 0
-    do k = 1, n_points, group
-    call update_points(sands(find_sand('paper000'))%props, 1.0e-6_wp, 20000_c_int, int(set, c_int), int(group, c_int), &
-                        stride, points%stress(k, 1), points%delta(k, 1), points%void_ratio(k), strain(k, 1), &
-                        status(k), evaluations(k), scalar)
-    end do
+ call update_points(sands(find_sand('paper000'))%props, tolerance, 20000_c_int, int(set, c_int), int(n_points, c_int), &
+                       stride, points%stress, points%delta, points%void_ratio, strain, status, evaluations, scalar)
   end subroutine update_all
 
   !> One line.
@@ -149,28 +153,33 @@ contains
     real(wp) :: best, best_scalar, error(n_points), strain(n_points, 6)
     integer(c_int64_t) :: scalar
     integer(c_int) :: status(n_points), evaluations(n_points)
-    integer(int64) :: began, ended, ticks
+    real(wp) :: began, ended
     integer :: k, j, outcome
     strain = length * directions
     best = huge(best)
     do j = 1, n_repeats
       work = points
-      call system_clock(began, ticks)
+      call cpu_time(began)
       call update_all(set, work, strain, status, evaluations, scalar)
-      call system_clock(ended)
-      best = min(best, 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / n_points)
+      call cpu_time(ended)
+      best = min(best, 1.0e9_wp * (ended - began) / n_points)
     end do
-    best_scalar = 0.0_wp
+    best_scalar = huge(best_scalar)
+    do j = 1, 3
+      call cpu_time(began)
+      do k = 1, n_points
+        state = state_type(points%stress(k, :), points%delta(k, :), points%void_ratio(k))
+        call update_state(m, options_type(tolerance=tolerance), state, strain(k, :), report, outcome)
+      end do
+      call cpu_time(ended)
+      best_scalar = min(best_scalar, 1.0e9_wp * (ended - began) / n_points)
+    end do
     do k = 1, n_points
-      state = state_type(points%stress(k, :), points%delta(k, :), points%void_ratio(k))
-      call system_clock(began)
-      call update_state(m, options_type(), state, strain(k, :), report, outcome)
-      call system_clock(ended)
-      best_scalar = best_scalar + 1.0e9_wp * real(ended - began, wp) / real(ticks, wp) / n_points
       state = state_type(points%stress(k, :), points%delta(k, :), points%void_ratio(k))
       call update_state(m, options_type(tolerance=1.0e-11_wp), state, strain(k, :), report, outcome)
       error(k) = 0.0_wp
-      if (status(k) == status_ok .and. outcome == status_ok) error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
+      if (status(k) == status_ok .and. outcome == status_ok) &
+        error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
     end do
     write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
       real(sum(evaluations), wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar

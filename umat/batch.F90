@@ -112,7 +112,6 @@ contains
     integer(int64) :: tags(n_lanes, n_tags)
     integer :: point(n_lanes) !< whose numbers a lane holds
     integer :: left, top !< number of points left, and the last lane in use: between them may be copies, whose point is 0
-    integer :: i
 
     call load()
     call close_ranks()
@@ -120,11 +119,7 @@ contains
     call close_ranks()
     do while (left > 0)
       call step_all()
-      do i = 1, top
-        if (point(i) == 0) cycle
-        if (tags(i, t_outcome) == outcome_segment_done) call end_segment(i)
-        if (tags(i, t_outcome) == outcome_going .and. .not. may_go_on(i)) tags(i, t_outcome) = outcome_special
-      end do
+      call end_segments()
       call close_ranks()
     end do
 
@@ -330,26 +325,48 @@ contains
       end select
     end subroutine attempt
 
-    !> Loading follows upon a reversal, or the increment is done.
-    subroutine end_segment(lane)
-      integer, intent(in) :: lane
-      integer :: k, j
-      if (lanes(lane, l_rest) > 0.0_wp) then
-        lanes(lane, l_length) = lanes(lane, l_rest)
-        lanes(lane, l_rest) = 0.0_wp
-        tags(lane, t_kind) = kind_plane
-        tags(lane, t_outcome) = outcome_begin
-        return
-      end if
-      k = point(lane)
-      do j = 1, 6
-        stress(k, j) = lanes(lane, l_stress - 1 + j)
-        if (m%intergranular) delta(k, j) = lanes(lane, l_delta - 1 + j)
+    !> Loading follows upon a reversal, or the increment is done; another step may not be taken everywhere.
+    subroutine end_segments()
+      integer :: lane(n_lanes), done, j, k
+      done = 0
+      do k = 1, top
+        if (point(k) == 0) cycle
+        if (tags(k, t_outcome) == outcome_going .and. .not. may_go_on(k)) tags(k, t_outcome) = outcome_special
+        if (tags(k, t_outcome) /= outcome_segment_done) cycle
+        if (lanes(k, l_rest) > 0.0_wp) then
+          lanes(k, l_length) = lanes(k, l_rest)
+          lanes(k, l_rest) = 0.0_wp
+          tags(k, t_kind) = kind_plane
+          tags(k, t_outcome) = outcome_begin
+        else
+          done = done + 1
+          lane(done) = k
+        end if
       end do
-      void_ratio(k) = lanes(lane, l_e)
-      status(k) = status_ok
-      evaluations(k) = int(lanes(lane, l_evaluations), c_int)
-    end subroutine end_segment
+      do j = 1, 6
+        do k = 1, done
+          stress(point(lane(k)), j) = lanes(lane(k), l_stress - 1 + j)
+        end do
+      end do
+      do k = 1, done
+        void_ratio(point(lane(k))) = lanes(lane(k), l_e)
+        status(point(lane(k))) = status_ok
+        evaluations(point(lane(k))) = int(lanes(lane(k), l_evaluations), c_int)
+      end do
+      if (m%intergranular) call store_delta(delta, lane, done)
+    end subroutine end_segments
+
+    !> delta of points that are done.
+    subroutine store_delta(taken, lane, done)
+      real(c_double), intent(inout) :: taken(stride, *)
+      integer, intent(in) :: lane(n_lanes), done
+      integer :: j, k
+      do j = 1, 6
+        do k = 1, done
+          taken(point(lane(k)), j) = lanes(lane(k), l_delta - 1 + j)
+        end do
+      end do
+    end subroutine store_delta
 
     !> May a lane take another step here? The scalar update knows why a bound is reached.
     pure function may_go_on(lane) result(yes)

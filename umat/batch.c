@@ -22,7 +22,7 @@ static hypofab_status check(const hypofab_material *material, const hypofab_poin
 }
 
 /* Points that a thread does at a time. */
-enum { GROUP = 256 };
+enum { GROUP = 512 };
 
 /* What a part of the points came to. */
 typedef struct tally {

@@ -167,7 +167,7 @@ contains
       kappa = merge(square, kappa, straight > half)
       power = axis_power * axis - plane * inverse_beta + half * straight
       left = chosen(axis, decay * loss(decay, axis_power * beta_r, rho_beta), 1.0_wp - rho_beta)
-      speed = chosen(plane, R * exp(min(0.0_wp, log_rho)), 1.0_wp)
+      speed = chosen(plane, R * min(1.0_wp, sqrt(rho_square)), 1.0_wp)
       speed = chosen(axis, R * axis_power * (1.0_wp - decay)**(axis_power - 1) / max(1.0e-100_wp, loss(decay, axis_power * beta_r, rho_beta)), speed)
       ! The direction of delta: tanh x and sech x on a plane path, parts of d and of the normal part of delta on a straight one.
       whole = sqrt(rho_square)

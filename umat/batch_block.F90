@@ -10,7 +10,7 @@ module umat_block
   public :: update_block, largest_block
 
   !> Points of a block at most.
-  integer, parameter :: largest_block = 64
+  integer, parameter :: largest_block = 256
 
   interface
     !> instructions.c: the best instruction set of this processor.

@@ -6,9 +6,9 @@ module umat_batch_lanes
   implicit none
   public
 
-  !> Points that go through the rounds together, so many that what is known of them stays in the first cache; and lanes
+  !> Points that go through the rounds together: many, so that few registers run half empty in later rounds; and lanes
   !> that the kernel works on at once, a multiple of the widest vector register. No result depends on them.
-  integer, parameter :: most_points = 64, width = 16
+  integer, parameter :: most_points = 256, width = 16
   !> Lanes: room to fill up the registers of two rules, and a few more so that the fields of a point fall into different sets of the cache.
   integer, parameter :: n_lanes = most_points + 2 * width + 8
 

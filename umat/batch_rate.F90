@@ -64,7 +64,7 @@ contains
     real(wp), intent(inout) :: bad(width)
     type(pressure_type) :: p
     type(scalars_type) :: s
-    real(wp) :: unmoved(width, 6)
+    real(wp) :: unmoved(width, 6), dense(width), f_d
     real(wp) :: e, pressure, log_p, exponent, alpha, beta, e_d0, log_e_c0, inverse_h_s, inverse_range, density, h_s, p_t, power, &
                 growth
     integer :: i
@@ -99,9 +99,17 @@ contains
       origin%f_d(i) = exp(alpha * log(origin%density(i)))
       s%growth(i) = growth
       s%f_e(i) = origin%f_e(i)
-      s%f_d(i) = merge(origin%f_d(i), exp(alpha * log(max(density, nothing))), density >= smallest_density)
-      s%f_d(i) = merge(s%f_d(i), 0.0_wp, density > nothing)
+      s%f_d(i) = origin%f_d(i)
+      dense(i) = merge(1.0_wp, 0.0_wp, density < smallest_density)
     end do
+    if (any(dense > half)) then
+      !GCC$ ivdep
+      do i = 1, width
+        density = (origin%e(i) * origin%growth(i) - e_d0) * inverse_range
+        f_d = merge(exp(alpha * log(max(density, nothing))), 0.0_wp, density > nothing)
+        s%f_d(i) = chosen(dense(i), f_d, s%f_d(i))
+      end do
+    end if
     unmoved = 0.0_wp
     call direction_of_stress(m, b, lanes, origin, unmoved, origin%h, p, bad)
     call assemble(m, s, origin%h)

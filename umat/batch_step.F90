@@ -358,32 +358,50 @@ contains
     type(work_type), intent(in) :: w
     real(wp), intent(in) :: coupling(width), scale(width)
     real(wp) :: missing(width)
-    real(wp) :: mode(width, 6), modes(width, 0:2), none(width)
-    integer :: comp, i
-    do i = 0, 2
-      do comp = 1, 6
-        mode(:, comp) = mode_of(rule, i, w%f(:, comp, :))
+    real(wp) :: modes(width, 0:2), mode0, mode1, mode2, factor, none(width)
+    integer :: i, comp
+    modes = 0.0_wp
+    do comp = 1, 6
+      factor = merge(1.0_wp, 2.0_wp, comp <= 3)
+      !GCC$ ivdep
+      do i = 1, width
+        mode0 = mode_of(rule, 0, w%f(i, comp, 0), w%f(i, comp, 1), w%f(i, comp, 2), w%f(i, comp, 3), w%f(i, comp, 4))
+        mode1 = mode_of(rule, 1, w%f(i, comp, 0), w%f(i, comp, 1), w%f(i, comp, 2), w%f(i, comp, 3), w%f(i, comp, 4))
+        mode2 = mode_of(rule, 2, w%f(i, comp, 0), w%f(i, comp, 1), w%f(i, comp, 2), w%f(i, comp, 3), w%f(i, comp, 4))
+        modes(i, 0) = modes(i, 0) + factor * mode0**2
+        modes(i, 1) = modes(i, 1) + factor * mode1**2
+        modes(i, 2) = modes(i, 2) + factor * mode2**2
       end do
-      modes(:, i) = size_of(mode)
     end do
+    modes = sqrt(modes)
     missing = tail(rule, modes, coupling) / scale
     if (.not. m%intergranular) return
     none = 0.0_wp
     ! Where the path measures length nothing is missing: the strain is the same at all nodes.
-    do i = 0, 2
-      modes(:, i) = abs(mode_of(rule, i, nodes%strain))
+    !GCC$ ivdep
+    do i = 1, width
+    modes(i, 0) = abs(mode_of(rule, 0, nodes%strain(i, 0), nodes%strain(i, 1), nodes%strain(i, 2), nodes%strain(i, 3), &
+                                nodes%strain(i, 4)))
+    modes(i, 1) = abs(mode_of(rule, 1, nodes%strain(i, 0), nodes%strain(i, 1), nodes%strain(i, 2), nodes%strain(i, 3), &
+                                nodes%strain(i, 4)))
+    modes(i, 2) = abs(mode_of(rule, 2, nodes%strain(i, 0), nodes%strain(i, 1), nodes%strain(i, 2), nodes%strain(i, 3), &
+                                nodes%strain(i, 4)))
     end do
     missing = max(missing, tail(rule, modes, none) * (1.0_wp / m%R))
   end function missing_of
 
-  !> A coefficient of the polynomial through values at the nodes.
+  !> A coefficient of the polynomial through values at the nodes; the last two are those of the long rule.
   !> @param i as in lobatto_type
-  pure function mode_of(rule, i, f) result(mode)
+  elemental function mode_of(rule, i, f0, f1, f2, f3, f4) result(mode)
     integer, intent(in) :: rule, i
-    real(wp), intent(in) :: f(width, 0:most_nodes)
-    real(wp) :: mode(width)
-    mode = rules(rule)%mode(0, i) * f(:, 0) + rules(rule)%mode(1, i) * f(:, 1) + rules(rule)%mode(2, i) * f(:, 2)
-    if (rule == rule_long) mode = mode + rules(rule)%mode(3, i) * f(:, 3) + rules(rule)%mode(4, i) * f(:, 4)
+    real(wp), intent(in) :: f0, f1, f2, f3, f4
+    real(wp) :: mode
+    if (rule == rule_short) then
+      mode = rules(rule_short)%mode(0, i) * f0 + rules(rule_short)%mode(1, i) * f1 + rules(rule_short)%mode(2, i) * f2
+    else
+      mode = rules(rule_long)%mode(0, i) * f0 + rules(rule_long)%mode(1, i) * f1 + rules(rule_long)%mode(2, i) * f2 + &
+             rules(rule_long)%mode(3, i) * f3 + rules(rule_long)%mode(4, i) * f4
+    end if
   end function mode_of
 
   !> As tail in collocation.f90.
