@@ -72,16 +72,21 @@ static hypofab_status refuse_second_document(const char *path, yaml_parser_t *pa
 }
 
 hypofab_status deck_source_open(const char *path, deck_source *source) {
-  *source = (deck_source){.path = path};
-  hypofab_status status = read_text(path, &source->text, &source->length);
-  if (status) return status;
+  char *text = NULL;
+  size_t length = 0;
+  hypofab_status status = read_text(path, &text, &length);
+  return status ? status : deck_source_parse(path, text, length, source);
+}
 
+hypofab_status deck_source_parse(const char *path, char *text, size_t length, deck_source *source) {
+  *source = (deck_source){.path = path, .text = text, .length = length};
   yaml_parser_t parser;
   if (!yaml_parser_initialize(&parser)) {
     free(source->text);
     return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory while parsing", path);
   }
   yaml_parser_set_input_string(&parser, (const unsigned char *)source->text, source->length);
+  hypofab_status status = HYPOFAB_OK;
   if (!yaml_parser_load(&parser, &source->document)) {
     status = parser_message(path, &parser);
     free(source->text);

@@ -36,6 +36,13 @@ deck_key deck_key_format(const char *format, ...) __attribute__((format(printf, 
  */
 hypofab_status deck_source_open(const char *path, deck_source *source);
 
+/**
+ * @brief The same for a text in memory.
+ * @param path names the text in messages, and its folder is that of the paths in it; kept by reference
+ * @param text allocated; the source's from now on, freed also on failure
+ */
+hypofab_status deck_source_parse(const char *path, char *text, size_t length, deck_source *source);
+
 /** Free what deck_source_open filled. */
 void deck_source_close(deck_source *source);
 

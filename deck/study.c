@@ -54,20 +54,22 @@ static hypofab_status resolve(hypofab_study *study, const deck_source *source) {
   return status;
 }
 
-hypofab_status hypofab_study_load(const char *path, hypofab_study **study) {
-  if (!study) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "study is NULL, expected a place for the new study");
+/* A study of a file, or of `text` when that is given. */
+static hypofab_status load(const char *path, const char *text, size_t length, hypofab_study **study) {
   *study = NULL;
-  if (!path) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "path is NULL, expected the path of a deck");
   hypofab_study *loaded = calloc(1, sizeof *loaded);
   char *kept_path = strdup(path);
+  char *kept_text = text ? malloc(length + 1) : NULL;
   deck_source source;
   hypofab_status status;
-  if (!loaded || !kept_path) {
+  if (!loaded || !kept_path || (text && !kept_text)) {
     free(kept_path);
+    free(kept_text);
     status = hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", path);
   } else {
     loaded->path = kept_path;
-    status = deck_source_open(kept_path, &source);
+    if (text) memcpy(kept_text, text, length);
+    status = text ? deck_source_parse(kept_path, kept_text, length, &source) : deck_source_open(kept_path, &source);
     if (!status) {
       status = resolve(loaded, &source);
       deck_source_close(&source);
@@ -78,6 +80,21 @@ hypofab_status hypofab_study_load(const char *path, hypofab_study **study) {
   else
     *study = loaded;
   return status;
+}
+
+hypofab_status hypofab_study_load(const char *path, hypofab_study **study) {
+  if (!study) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "study is NULL, expected a place for the new study");
+  *study = NULL;
+  if (!path) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "path is NULL, expected the path of a deck");
+  return load(path, NULL, 0, study);
+}
+
+hypofab_status hypofab_study_parse(const char *text, size_t length, const char *path, hypofab_study **study) {
+  if (!study) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "study is NULL, expected a place for the new study");
+  *study = NULL;
+  if (!text || !path)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "text or path is NULL, expected the text of a deck and a name for it");
+  return load(path, text, length, study);
 }
 
 static void free_test(study_test *test) {

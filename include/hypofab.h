@@ -1218,6 +1218,14 @@ typedef struct hypofab_study hypofab_study;
  */
 hypofab_status hypofab_study_load(const char *path, hypofab_study **study);
 
+/**
+ * @brief The same for a deck in memory.
+ * @param text   YAML (JSON is YAML too), `length` bytes
+ * @param path   names the deck in messages; paths in the deck are relative to its folder. Nothing is read from it
+ * @param study  as hypofab_study_load
+ */
+hypofab_status hypofab_study_parse(const char *text, size_t length, const char *path, hypofab_study **study);
+
 /** Free a study; NULL is allowed. */
 void hypofab_study_free(hypofab_study *study);
 
@@ -1247,6 +1255,21 @@ int hypofab_study_sign(const hypofab_study *study);
  */
 hypofab_status hypofab_study_run(const hypofab_study *study, const char *directory, hypofab_progress progress,
                                  void *user);
+
+/**
+ * @brief Run one test of a study and hand over its rows, with the numbers that hypofab_study_run writes to its file.
+ * @param index   of the test, from 0
+ * @param sink    receives the rows, in the deck's sign
+ * @param watch   as hypofab_test_options.watch; NULL when not wanted
+ * @param user    handed to sink and watch
+ * @param columns set to the number of quantities that are wanted in its file: HYPOFAB_FIRST_STABILITY or
+ *                HYPOFAB_N_QUANTITIES; NULL when not wanted
+ * @param outcome as hypofab_test_run, tension positive; NULL when not wanted
+ * @return 0; 1..99 when the test stopped early, as hypofab_test_run
+ */
+hypofab_status hypofab_study_test_run(const hypofab_study *study, int index, hypofab_row_sink sink,
+                                      int (*watch)(int step, double done, void *user), void *user, int *columns,
+                                      hypofab_test_outcome *outcome);
 
 /** Compute every envelope of a study and write DIR/<envelope>.csv each. Arguments as hypofab_study_run. */
 hypofab_status hypofab_study_envelopes(const hypofab_study *study, const char *directory, hypofab_progress progress,

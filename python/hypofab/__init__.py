@@ -1,1 +1,45 @@
-"""Figures and tables from the result files of the program `hypofab`."""
+"""From grain contacts to finite elements: hypoplasticity of sand with intergranular strain.
+
+The names below need the compiled library (`pip install .`); figures, tables and `python -m hypofab` do not.
+docs/python.md shows how they are used; __init__.pyi names them to type checkers.
+"""
+
+from importlib import import_module
+
+from hypofab.errors import HypofabError, InputError, InternalError, PhysicalError, Status
+
+_HOMES = {
+    "decks": ("Step", "Study", "Test", "TestResult", "element_test", "run"),
+    "fabrics": (
+        *("Fabric", "InitialDelta", "Significance", "fabric_of_file", "fabric_of_normals", "fabric_of_tensor"),
+        "weights",
+    ),
+    "library": ("version",),
+    "materials": ("Material", "Parameter", "Sand", "parameters", "sands"),
+    "model": (
+        *("Branch", "Increment", "LinearParts", "Points", "Rate", "State"),
+        *("linear_parts", "rate", "update", "update_many"),
+    ),
+    "probing": (
+        *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "stability"),
+        "triangles",
+    ),
+    "tensors": ("COMPONENTS", "components", "matrix"),
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = ["HypofabError", "InputError", "InternalError", "PhysicalError", "Status", *_HOME]
+
+
+def __getattr__(name: str) -> object:
+    """Load a name when it is asked for: a source tree without the compiled library can be imported all the same."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'hypofab' has no attribute '{name}'")
+    value = getattr(import_module(f"hypofab.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return sorted(__all__)

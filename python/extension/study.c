@@ -1,0 +1,144 @@
+/* Decks: loaded, run in memory or into files. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core.h"
+
+/* Columns of collected rows beside the quantities: step (from 1, as in result files) and event. */
+#define MORE_COLUMNS 2
+
+/* Rows of a test while it runs and until Python has taken them. */
+typedef struct collected {
+  double *values;
+  size_t rows, capacity;
+  int quantities;
+  volatile const int *stop;
+  int no_memory;
+} collected;
+
+static hypofab_study *study_of(long long handle) { return (hypofab_study *)(intptr_t)handle; }
+
+int core_study_load(const char *path, long long *handle, size_t path_length) {
+  (void)path_length;
+  hypofab_study *study;
+  const hypofab_status status = hypofab_study_load(path, &study);
+  *handle = (long long)(intptr_t)study;
+  return status;
+}
+
+int core_study_parse(const char *text, const char *path, long long *handle, size_t text_length, size_t path_length) {
+  (void)path_length;
+  hypofab_study *study;
+  const hypofab_status status = hypofab_study_parse(text, text_length, path, &study);
+  *handle = (long long)(intptr_t)study;
+  return status;
+}
+
+void core_study_free(long long handle) { hypofab_study_free(study_of(handle)); }
+
+void core_study_size(long long handle, int *counts) {
+  const hypofab_study *study = study_of(handle);
+  counts[0] = hypofab_study_test_count(study);
+  counts[1] = hypofab_study_envelope_count(study);
+  counts[2] = hypofab_study_state_count(study);
+  counts[3] = hypofab_study_sign(study);
+}
+
+void core_study_name(long long handle, int list, int index, char *text, size_t size) {
+  const hypofab_study *study = study_of(handle);
+  core_text(list == 0   ? hypofab_study_test_name(study, index)
+            : list == 1 ? hypofab_study_envelope_name(study, index)
+                        : hypofab_study_state_name(study, index),
+            text, size);
+}
+
+void core_study_unit(long long handle, char *text, size_t size) {
+  core_text(hypofab_study_unit(study_of(handle)), text, size);
+}
+
+int core_study_state(long long handle, int index, double *material, double *state) {
+  hypofab_material m;
+  hypofab_state s;
+  const hypofab_status status = hypofab_study_state(study_of(handle), index, &m, &s);
+  if (status) return status;
+  memcpy(material, &m, sizeof m);
+  core_pack_state(&s, state);
+  return status;
+}
+
+/* In the order of a row until the test is done, which tells how many of the columns are wanted. */
+static int collect(const hypofab_row *row, void *user) {
+  collected *all = user;
+  const size_t width = HYPOFAB_N_QUANTITIES + MORE_COLUMNS;
+  if (all->rows == all->capacity) {
+    const size_t capacity = all->capacity ? 2 * all->capacity : 256;
+    double *larger = realloc(all->values, capacity * width * sizeof *larger);
+    if (!larger) {
+      all->no_memory = 1;
+      return 1;
+    }
+    all->values = larger;
+    all->capacity = capacity;
+  }
+  double *values = all->values + width * all->rows++;
+  memcpy(values, row->value, sizeof row->value);
+  values[HYPOFAB_N_QUANTITIES] = row->step + 1;
+  values[HYPOFAB_N_QUANTITIES + 1] = row->event;
+  return *all->stop;
+}
+
+static int watch(int step, double done, void *user) {
+  (void)step;
+  (void)done;
+  return *((const collected *)user)->stop;
+}
+
+int core_study_test_run(long long handle, int index, int *stop, long long *rows, long long *report) {
+  *rows = 0;
+  collected *all = calloc(1, sizeof *all);
+  if (!all) return HYPOFAB_NO_MEMORY;
+  all->stop = stop;
+  hypofab_test_outcome outcome = {0};
+  const hypofab_status status =
+      hypofab_study_test_run(study_of(handle), index, collect, watch, all, &all->quantities, &outcome);
+  if (all->no_memory || status >= HYPOFAB_BAD_MATERIAL) {
+    const int no_memory = all->no_memory;
+    core_rows_free((long long)(intptr_t)all);
+    return no_memory ? HYPOFAB_NO_MEMORY : status;
+  }
+  *rows = (long long)(intptr_t)all;
+  report[0] = (long long)all->rows;
+  report[1] = all->quantities + MORE_COLUMNS;
+  report[2] = outcome.step;
+  report[3] = outcome.integrator_steps;
+  report[4] = outcome.evaluations;
+  return status;
+}
+
+void core_rows_take(long long rows, int n, int width, double *values) {
+  const collected *all = (const collected *)(intptr_t)rows;
+  const size_t quantities = (size_t)width - MORE_COLUMNS;
+  for (size_t i = 0; i < (size_t)n; ++i) {
+    const double *from = all->values + i * (HYPOFAB_N_QUANTITIES + MORE_COLUMNS);
+    double *to = values + i * (size_t)width;
+    memcpy(to, from, quantities * sizeof *to);
+    memcpy(to + quantities, from + HYPOFAB_N_QUANTITIES, MORE_COLUMNS * sizeof *to);
+  }
+}
+
+void core_rows_free(long long rows) {
+  collected *all = (collected *)(intptr_t)rows;
+  if (all) free(all->values);
+  free(all);
+}
+
+int core_study_run(long long handle, const char *directory, int *stop, size_t length) {
+  (void)length;
+  return hypofab_study_run(study_of(handle), directory, core_asked_to_stop, stop);
+}
+
+int core_study_envelopes(long long handle, const char *directory, int *stop, size_t length) {
+  (void)length;
+  return hypofab_study_envelopes(study_of(handle), directory, core_asked_to_stop, stop);
+}
