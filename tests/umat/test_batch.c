@@ -19,6 +19,13 @@
 #include <cmocka.h>
 /* clang-format on */
 
+/* Clouds of points compared with the scalar update; fewer where sanitizers make each ten times slower. */
+#ifdef __SANITIZE_ADDRESS__
+enum { CLOUDS = 24 };
+#else
+enum { CLOUDS = 120 };
+#endif
+
 enum { MAX_POINTS = 1000, STRIDE = MAX_POINTS + 7 };
 
 /* Points of one material, and the arrays that describe them. */
@@ -143,7 +150,7 @@ static void test_equal_to_scalar(void **unused) {
   random_stream r = {31};
   double worst = 0.0;
   int64_t points = 0, by_scalar = 0, good = 0;
-  for (int repeat = 0; repeat < 120; repeat++) {
+  for (int repeat = 0; repeat < CLOUDS; repeat++) {
     cloud *before = random_cloud(&r, 1 + (int)random_uniform(&r, 0.0, 150.0), 1e-7, 1e-2, repeat % 2 ? 0.1 : 0.0);
     const hypofab_update_options options = {.tolerance = tolerances[repeat % 3]};
     const double tolerance = options.tolerance > 0.0 ? options.tolerance : 1e-6;
@@ -188,7 +195,7 @@ static void assert_same(const cloud *a, int i, const cloud *b, int j) {
 static void test_a_point_depends_on_itself_alone(void **unused) {
   (void)unused;
   random_stream r = {32};
-  for (int repeat = 0; repeat < 12; repeat++) {
+  for (int repeat = 0; repeat < CLOUDS / 10; repeat++) {
     cloud *before = random_cloud(&r, MAX_POINTS - 1 - repeat, 1e-6, 3e-4, 0.05), *once = copy(before);
     hypofab_points points = points_of(once);
     hypofab_batch_report report;
