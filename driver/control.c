@@ -164,11 +164,13 @@ hypofab_status control_solve(const hypofab_material *material, const hypofab_sta
     status = plain_size(&s, &factor);
     if (status) return status;
   } else if (branch == HYPOFAB_LOADING) {
-    const double g = determinant_ratio(&s);
-    if (!(g > singular))
+    /* A path that is on the loading branch stays there when det(reversal) vanishes and the other branch comes to answer
+     * too: g and along then change their signs through infinity, D does not. At a peak g alone does, through zero. */
+    const double g = determinant_ratio(&s), along = tensor_dot(s.direction, s.reversal);
+    if (!(g > singular || (g < -singular && along < 0.0)))
       return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
                           "the prescribed rates lose their solution at this state (a peak or limit state)");
-    factor = tensor_dot(s.direction, s.reversal) / g;
+    factor = along / g;
   }
   for (int i = 0; i < 6; i++) rates->stretching[i] = s.reversal[i] - factor * s.response[i];
   for (int i = 0; i < 6; i++) {

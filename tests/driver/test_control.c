@@ -185,11 +185,38 @@ static void test_loss_of_uniqueness_is_named(void **unused) {
   assert_true(unique > 0 && not_unique > 0 && not_controllable > 0);
 }
 
+/*
+ * s' held and the axial strain driven: on the way the determinant of the reversal branch vanishes and a second strain
+ * rate comes to satisfy the conditions, while that of loading goes on. The path follows it, and is the one of stress
+ * control, under which the answer is unique. To begin there is not unique.
+ */
+static void test_path_stays_on_its_branch(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-90, -95, -130, 0, 0, 0}, {0}, 0.7};
+  hypofab_test_outcome end[2], again;
+  hypofab_step step = {0};
+  for (int by_stress = 0; by_stress < 2; by_stress++) {
+    const hypofab_argument arguments[3] = {{"axis", {2}}, {"normal", {1}}, {"drive", {by_stress}}};
+    assert_int_equal(hypofab_step_preset_with(&step, "constant_s_biaxial_compression", arguments, 3), HYPOFAB_OK);
+    step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.01};
+    assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, NULL, NULL, &end[by_stress]), HYPOFAB_OK);
+  }
+  for (int i = 0; i < 6; i++) {
+    assert_true(fabs(end[0].state.stress[i] - end[1].state.stress[i]) < 1e-5);
+    assert_true(fabs(end[0].last.value[HYPOFAB_EPS_XX + i] - end[1].last.value[HYPOFAB_EPS_XX + i]) < 1e-9);
+  }
+  const hypofab_argument plane[2] = {{"axis", {2}}, {"normal", {1}}};
+  assert_int_equal(hypofab_step_preset_with(&step, "constant_s_biaxial_compression", plane, 2), HYPOFAB_OK);
+  assert_int_equal(hypofab_test_run(&material, &end[0].state, &step, 1, NULL, NULL, NULL, &again), HYPOFAB_NOT_UNIQUE);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_conditions_are_met),          cmocka_unit_test(test_held_stays_held),
       cmocka_unit_test(test_peak_under_stress_control),   cmocka_unit_test(test_conditions_that_prescribe_too_little),
-      cmocka_unit_test(test_loss_of_uniqueness_is_named),
+      cmocka_unit_test(test_loss_of_uniqueness_is_named), cmocka_unit_test(test_path_stays_on_its_branch),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
