@@ -21,7 +21,7 @@ _HOMES = {
         *("linear_parts", "rate", "update", "update_many"),
     ),
     "probing": (
-        *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "stability"),
+        *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability"),
         "triangles",
     ),
     "tensors": ("COMPONENTS", "components", "matrix"),

@@ -41,7 +41,7 @@ from hypofab.probing import Subspace as Subspace
 from hypofab.probing import envelope as envelope
 from hypofab.probing import fit_ellipsoid as fit_ellipsoid
 from hypofab.probing import probe as probe
-from hypofab.probing import stability as stability
+from hypofab.probing import state_stability as state_stability
 from hypofab.probing import triangles as triangles
 from hypofab.tensors import COMPONENTS as COMPONENTS
 from hypofab.tensors import components as components

@@ -215,7 +215,7 @@ class Stability:
     acoustic_branch: Branch
 
 
-def stability(material: Material, state: State) -> Stability:
+def state_stability(material: Material, state: State) -> Stability:
     """Measures of stability of a state."""
     status, numbers, branches = core.stability(material.numbers(), state.numbers())
     check(status)

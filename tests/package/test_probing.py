@@ -50,7 +50,7 @@ def test_coordinates_are_isometric() -> None:
 
 
 def test_the_smallest_second_order_work_is_that_of_its_direction(sand: hypofab.Material, state: hypofab.State) -> None:
-    found = hypofab.stability(sand, state)
+    found = hypofab.state_stability(sand, state)
     work = np.sum(hypofab.rate(sand, state, found.work_direction).stress * found.work_direction * [1, 1, 1, 2, 2, 2])
     assert work == pytest.approx(found.work, rel=1e-9)
     for direction in hypofab.Subspace.all_components().directions(200):
