@@ -16,7 +16,7 @@ from hypofab import (
     figures,
     papers,
     probe_surfaces,
-    stability,
+    stability_figures,
     stiffness,
 )
 from hypofab.laboratory.catalogue import CatalogueError
@@ -50,9 +50,9 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
         zoom = None if options.zoom is None else options.zoom / 100
         save(figures.stress_strain(run, zoom=zoom), directory / "stress_strain")
         save(figures.volumetric(run, compression_positive=options.compression_positive), directory / "volumetric")
-        tests = [test for test in stability.read_stability(directory) if len(test.eps_q) > 2]
+        tests = [test for test in stability_figures.read_stability(directory) if len(test.eps_q) > 2]
         if tests:
-            save(stability.figure(tests), directory / "stability")
+            save(stability_figures.figure(tests), directory / "stability")
     probes = {envelope.file: envelope for envelope in read_probes(directory)} if has_probes(directory) else {}
     for path in envelopes:
         stem = path.with_suffix("")
