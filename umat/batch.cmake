@@ -12,7 +12,7 @@ set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapp
                    -Wno-unused-function)
 
 # add_kernel(NAME OPTION...): the kernel as the modules umat_batch_begin_NAME, umat_batch_path_NAME, ...
-set(kernel_parts begin path reach rate linear step)
+set(kernel_parts begin path reach rate linear errors step)
 function(add_kernel name)
   add_library(hypofab_batch_${name} OBJECT)
   foreach(part ${kernel_parts})
