@@ -21,6 +21,7 @@ from hypofab import (
 )
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
+from hypofab.launch import packaged_program
 from hypofab.probes import has_probes, is_classical, read_probes
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
 
@@ -65,9 +66,10 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
 
 
 def default_program() -> str:
-    """The program: HYPOFAB_PROGRAM, or hypofab on the path, or the one built here."""
+    """The program: HYPOFAB_PROGRAM, or that of the package, or hypofab on the path, or the one built here."""
     built = Path(__file__).resolve().parents[2] / "build" / "cli" / "hypofab"
-    return os.environ.get("HYPOFAB_PROGRAM") or shutil.which("hypofab") or str(built)
+    found = os.environ.get("HYPOFAB_PROGRAM") or packaged_program() or shutil.which("hypofab") or built
+    return str(found)
 
 
 def parser() -> argparse.ArgumentParser:

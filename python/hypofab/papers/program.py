@@ -6,12 +6,13 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from hypofab.launch import packaged_program
 from hypofab.results import ResultError
 
 
 def program() -> str:
-    """Path of the program: HYPOFAB_PROGRAM, the build folder of this source tree, or the search path."""
-    built = Path(__file__).parents[3] / "build" / "cli" / "hypofab"
+    """Path of the program: HYPOFAB_PROGRAM, that of the package, of this source tree's build, of the search path."""
+    built = packaged_program() or Path(__file__).parents[3] / "build" / "cli" / "hypofab"
     found = os.environ.get("HYPOFAB_PROGRAM") or (str(built) if built.exists() else shutil.which("hypofab"))
     if not found:
         raise ResultError("hypofab was not found: build it, or name it in HYPOFAB_PROGRAM")

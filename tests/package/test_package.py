@@ -1,0 +1,113 @@
+"""What is in the archives, and what an installed package offers beside its functions."""
+
+import ast
+import inspect
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import zipfile
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+import hypofab
+from hypofab import _core
+from hypofab.__main__ import parser
+from hypofab.launch import PYTHON_COMMANDS, packaged_program
+
+PACKAGE = Path(hypofab.__file__).parent
+COMMAND = Path(sys.executable).with_name("hypofab")
+
+
+def archive(pattern: str) -> Path:
+    folder = os.environ.get("HYPOFAB_DIST")
+    if not folder:
+        pytest.skip("HYPOFAB_DIST does not name the folder of the archives")
+    (found,) = Path(folder).glob(pattern)
+    return found
+
+
+def run(*arguments: str | Path, expected: int = 0) -> str:
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "HYPOFAB_PROGRAM")}
+    done = subprocess.run(list(map(str, arguments)), capture_output=True, text=True, env=environment, check=False)
+    assert done.returncode == expected, done.stderr
+    return done.stdout + done.stderr
+
+
+def test_the_wheel_holds_what_runs_and_nothing_else() -> None:
+    names = zipfile.ZipFile(archive("*.whl")).namelist()
+    assert {name.split("/")[0].split("-")[0] for name in names} == {"hypofab"}
+    for wanted in ("py.typed", "_core.pyi", "__init__.pyi", "libhypofab.so.0", "bin/hypofab", "laboratory/__init__.py"):
+        assert f"hypofab/{wanted}" in names
+    assert sum(name.endswith((".so.0", ".so")) for name in names) == 2
+
+
+def test_the_source_archive_holds_what_builds() -> None:
+    with tarfile.open(archive("*.tar.gz")) as file:
+        names = {name.split("/", 1)[1] for name in file.getnames() if "/" in name}
+    for wanted in ("CMakeLists.txt", "LICENSE", "python/extension/_core.pyf", "umat/rate.f90", "include/hypofab.h"):
+        assert wanted in names
+    assert not [name for name in names if name.startswith(("build", "out/", ".venv"))]
+
+
+def test_versions_agree() -> None:
+    assert version("hypofab") == hypofab.version()
+    assert hypofab.version() in run(COMMAND, "--version")
+
+
+def test_the_stub_names_every_function_of_the_extension() -> None:
+    """f2py puts the call in the first line of the documentation: results = name(arguments)."""
+    stub = ast.parse((PACKAGE / "_core.pyi").read_text())
+    found = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+    compiled = {name for name in dir(_core) if not name.startswith("_") and callable(getattr(_core, name))}
+    assert set(found) == compiled
+    for name, node in found.items():
+        results, arguments = re.fullmatch(
+            r"(?:(.*) = )?\w+\((.*)\)", getattr(_core, name).__doc__.splitlines()[0]
+        ).groups()
+        assert len(node.args.posonlyargs) == len(arguments.split(",") if arguments else []), name
+        returned = ast.unparse(node.returns)
+        count = returned.count(",") + 1 if returned.startswith("tuple") else int(returned != "None")
+        assert count == len(results.split(",") if results else []), name
+
+
+def test_the_stub_of_the_package_names_every_public_name() -> None:
+    stub = ast.parse((PACKAGE / "__init__.pyi").read_text())
+    named = {alias.asname for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    assert named == set(hypofab.__all__)
+    for name in hypofab.__all__:
+        value = getattr(hypofab, name)
+        if inspect.isfunction(value) or inspect.isclass(value):
+            assert value.__doc__, name
+
+
+def test_importing_does_not_load_what_figures_need() -> None:
+    code = "import sys, hypofab; hypofab.Material.sand('hostun'); assert 'matplotlib' not in sys.modules"
+    run(sys.executable, "-c", code)
+
+
+def test_the_command_is_the_program_and_the_python_commands(examples: Path, tmp_path: Path) -> None:
+    assert "hochstetten" in run(COMMAND, "materials")
+    assert "no_such_deck.yaml" in run(COMMAND, "run", "no_such_deck.yaml", expected=2)
+    run(COMMAND, "run", examples / "oedometer.yaml", "-o", tmp_path)
+    run(COMMAND, "plot", tmp_path)
+    assert (tmp_path / "stress_strain.png").stat().st_size > 1000
+
+
+def test_python_commands_are_those_that_the_program_has_not() -> None:
+    (commands,) = [action.choices for action in parser()._actions if action.dest == "command"]
+    listed = run(packaged_program(), "--help")
+    own = {name for name in commands if not re.search(rf"^\s+{re.escape(name)}\s", listed, flags=re.MULTILINE)}
+    assert own == set(PYTHON_COMMANDS)
+
+
+def test_modules_that_call_the_program_find_the_installed_one(examples: Path) -> None:
+    code = (
+        "from hypofab.contacts import delta; from hypofab.__main__ import default_program; import sys\n"
+        "print(delta(sys.argv[1], R=1e-4, c=0.05)['delta'], default_program())"
+    )
+    printed = run(sys.executable, "-c", code, examples / "data" / "iso_3000_contacts.txt.gz")
+    assert str(packaged_program()) in printed
