@@ -204,6 +204,8 @@ static int print_as_json(const choices *chosen, const hypofab_fabric *fabric, co
   double delta[6];
   signed_delta(chosen, map, delta);
   json_t *object = fabric_to_json(fabric);
+  const hypofab_sample *sample = contact_options_sample(&chosen->contacts);
+  if (sample) sample_to_json(sample, fabric, object);
   json_t *more = json_pack("{s:f, s:f, s:s, s:b, s:f, s:o, s:o, s:s}", "R", chosen->R, "c", chosen->c,
                            "weight_function", chosen->weight, "corrected", chosen->corrected, "weight", map->weight,
                            "weighted_fabric", numbers_to_json(map->weighted_fabric, 6), "delta",
@@ -221,7 +223,9 @@ static int print_as_table(const choices *chosen, const hypofab_fabric *fabric, c
                           const uncertainty *found) {
   double delta[6];
   signed_delta(chosen, map, delta);
+  const hypofab_sample *sample = contact_options_sample(&chosen->contacts);
   print_fabric(fabric);
+  if (sample) print_sample(sample, fabric);
   uncertainty_print(found, fabric, true);
   if (chosen->corrected) printf("\nWithout noise (--corrected):\n");
   printf("\nweight f(a), %s, c = %-6g %.6f\n\n", chosen->weight, chosen->c, map->weight);
@@ -271,7 +275,9 @@ int cmd_delta(int argc, char **argv) {
   if (argp_parse(&parser, argc, argv, 0, NULL, &chosen)) return CLI_INTERNAL_ERROR;
 
   hypofab_fabric fabric;
+  hypofab_sample sample;
   uncertainty found;
+  chosen.contacts.sample = &sample;
   hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
   if (!status) status = axes_options_apply(&chosen.axes, &fabric);
   const int exit_code = status ? cli_exit(status) : show(&chosen, &fabric, &found);

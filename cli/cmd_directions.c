@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/cmd_fabric.h"
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/report.h"
@@ -99,14 +100,15 @@ static int show_json(const choices *chosen, const hypofab_direction_bin *bins, i
   if (status) return cli_exit(status);
   json_t *array = json_array();
   for (int i = 0; i < count; i++) json_array_append_new(array, bin_object(&bins[i]));
-  return print_json(json_pack("{s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o}", "file", chosen->contacts.file, "dimension",
-                              description.dimension, "contacts", (json_int_t)description.fabric.contacts,
+  return print_json(json_pack("{s:s, s:i, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "file", chosen->contacts.file,
+                              "dimension", description.dimension, "contacts", (json_int_t)description.fabric.contacts,
                               "deviatoric_fabric", numbers_to_json(description.fabric.deviatoric_fabric, 6),
                               "anisotropy", number_to_json(description.fabric.anisotropy), "principal_directions",
                               json_pack("[o, o, o]", numbers_to_json(description.fabric.principal_directions[0], 3),
                                         numbers_to_json(description.fabric.principal_directions[1], 3),
                                         numbers_to_json(description.fabric.principal_directions[2], 3)),
-                              "fit", fit_object(&description.from_bins), "bins", array));
+                              "fit", fit_object(&description.from_bins), "reading",
+                              reading_to_json(&description.sample.report), "bins", array));
 }
 
 int cmd_directions(int argc, char **argv) {

@@ -121,21 +121,18 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   }
 }
 
-/* What reading told is known of one contact file alone. */
-static const hypofab_sample *sample_of(const choices *chosen) {
-  return chosen->contacts.n_files == 1 && !chosen->contacts.has_tensor ? chosen->contacts.sample : NULL;
-}
-
 static int show_json(const choices *chosen, const hypofab_fabric *fabric, const uncertainty *found) {
   json_t *object = fabric_to_json(fabric);
-  if (sample_of(chosen)) sample_to_json(sample_of(chosen), fabric, object);
+  const hypofab_sample *sample = contact_options_sample(&chosen->contacts);
+  if (sample) sample_to_json(sample, fabric, object);
   uncertainty_to_json(found, false, object);
   return print_json(object);
 }
 
 static int show(const choices *chosen, const hypofab_fabric *fabric, const uncertainty *found) {
+  const hypofab_sample *sample = contact_options_sample(&chosen->contacts);
   print_fabric(fabric);
-  if (sample_of(chosen)) print_sample(sample_of(chosen), fabric);
+  if (sample) print_sample(sample, fabric);
   uncertainty_print(found, fabric, false);
   return cli_finish_output();
 }

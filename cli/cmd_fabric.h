@@ -15,6 +15,9 @@ json_t *fabric_to_json(const hypofab_fabric *fabric);
 /** Add what is known of a sample to the JSON object of its fabric. */
 void sample_to_json(const hypofab_sample *sample, const hypofab_fabric *fabric, json_t *object);
 
+/** What was found while reading contacts, as a JSON object. NULL when memory ran out. */
+json_t *reading_to_json(const hypofab_contact_report *report);
+
 /** Print what is known of a sample below its fabric. */
 void print_sample(const hypofab_sample *sample, const hypofab_fabric *fabric);
 

@@ -119,3 +119,7 @@ hypofab_status contact_options_fabric(const contact_options *chosen, hypofab_fab
   hypofab_fabric_sum_free(sum);
   return status;
 }
+
+const hypofab_sample *contact_options_sample(const contact_options *options) {
+  return options->n_files == 1 && !options->has_tensor ? options->sample : NULL;
+}

@@ -35,4 +35,7 @@ void parse_tensor(struct argp_state *state, const char *option, const char *text
 /** The fabric the user asked for. */
 hypofab_status contact_options_fabric(const contact_options *options, hypofab_fabric *fabric);
 
+/** What reading told beside the fabric; NULL where that is not known: for N, and for several files. */
+const hypofab_sample *contact_options_sample(const contact_options *options);
+
 #endif

@@ -111,9 +111,9 @@ static void add_significance(const hypofab_description *d, json_t *object) {
 }
 
 static json_t *sample(const hypofab_description *d) {
-  return json_pack("{s:o, s:o, s:o, s:o}", "volume", number_to_json(d->volume), "solid_volume",
-                   number_to_json(d->solid_volume), "void_ratio", number_to_json(d->void_ratio), "rattlers",
-                   d->fabric.rattlers >= 0 ? json_integer(d->fabric.rattlers) : json_null());
+  return json_pack("{s:o, s:o, s:o, s:o}", "volume", number_to_json(d->sample.volume), "solid_volume",
+                   number_to_json(d->sample.solid_volume), "void_ratio", number_to_json(d->sample.void_ratio),
+                   "rattlers", d->fabric.rattlers >= 0 ? json_integer(d->fabric.rattlers) : json_null());
 }
 
 static json_t *weighted(const hypofab_description *d) {
@@ -141,6 +141,7 @@ json_t *description_to_json(const char *file, const hypofab_description *d) {
       {"component_order", component_names(dim, 2)},
       {"component_order_rank4", component_names(dim, 4)},
       {"sample", sample(d)},
+      {"reading", reading_to_json(&d->sample.report)},
       {"weighted", weighted(d)},
       {"branch", directions(dim, &d->branch)},
       {"long_axes", directions(dim, &d->long_axes)},

@@ -132,6 +132,7 @@ static void print_stress(const hypofab_contact_stress *s) {
 
 void print_description(const hypofab_description *d) {
   print_fabric(&d->fabric);
+  print_sample(&d->sample, &d->fabric);
   putchar('\n');
   print_number("deviator fabric, N_1 - N_3 (plane: N_1 - N_2)", d->weighted[HYPOFAB_BY_NUMBER].deviator);
   print_number("mean branch length", d->mean_branch_length);

@@ -5,7 +5,7 @@
 #include "cli/cmd_fabric.h"
 #include "cli/report.h"
 
-static json_t *reading_to_json(const hypofab_contact_report *report) {
+json_t *reading_to_json(const hypofab_contact_report *report) {
   return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o}", "listed", (json_int_t)report->listed,
                    "used", (json_int_t)report->used, "not_finite", (json_int_t)report->not_finite, "zero_normals",
                    (json_int_t)report->zero_normals, "not_unit", (json_int_t)report->not_unit, "with_themselves",

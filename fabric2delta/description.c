@@ -161,12 +161,7 @@ static void describe_stress(const description_work *work, hypofab_contact_stress
 }
 
 static void describe_sample(const description_extras *extras, hypofab_description *description) {
-  description->volume = description->solid_volume = description->void_ratio = NAN;
-  if (extras->sample) {
-    description->volume = extras->sample->volume;
-    description->solid_volume = extras->sample->solid_volume;
-    description->void_ratio = extras->sample->void_ratio;
-  }
+  description->sample = extras->sample ? *extras->sample : (hypofab_sample){NAN, NAN, NAN, {0}};
   for (int k = 0; k < 6; k++)
     description->fabric_by_solid_volume[k] =
         extras->particle_volume > 0.0 ? extras->volume_weighted[k] / extras->particle_volume : NAN;

@@ -97,8 +97,8 @@ typedef struct hypofab_description {
                                          (paper 001, Eq. 1); its trace is paper 001's Z */
   double fabric_by_solid_volume[6]; /**< (1/V_s) sum over particles V_p sum over their contacts n n: independent of the
                                          volume of voids; its trace is the coordination number weighted by volume */
-  double volume, solid_volume, void_ratio; /**< of the sample, as in hypofab_sample */
-  double anisotropy_per_particle;          /**< paper 001's A: largest minus smallest principal value of it */
+  hypofab_sample sample; /**< volumes and what was found while reading; of contacts in memory nothing: NaN and 0 */
+  double anisotropy_per_particle; /**< paper 001's A: largest minus smallest principal value of it */
   hypofab_direction_fabric weighted[HYPOFAB_N_WEIGHTS]; /**< fabric of contact normals */
   hypofab_direction_fabric branch;                      /**< fabric of the directions of branch vectors */
   hypofab_direction_fabric long_axes;                   /**< fabric of the long axes of particles (paper 003) */

@@ -90,4 +90,5 @@ def roses(sample: Result) -> Figure:
                 axes.set_title(f"{head}\n{rose['contacts']} {'lost' if mechanism == 'loss' else 'gained'}", fontsize=8)
                 axes.set_xticks(np.radians([0, 90]), [first, second])
                 axes.tick_params(axis="x", labelsize=7, pad=-2)
+        figure.supxlabel("radius: contacts per bin, each bin drawn on both sides", fontsize=7)
         return figure

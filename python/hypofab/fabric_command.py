@@ -69,7 +69,8 @@ def figures(options: argparse.Namespace) -> Iterator[tuple[str, Figure]]:
 
 def run(options: argparse.Namespace, save: Callable[[Figure, Path], None]) -> None:
     """Draw and save every figure."""
-    if not options.output.is_dir():
+    if options.output.exists() and not options.output.is_dir():
         raise ResultError(f"{options.output}: not a folder; expected one for the figures")
+    options.output.mkdir(parents=True, exist_ok=True)
     for name, figure in figures(options):
         save(figure, options.output / name.replace("/", "_"))

@@ -196,7 +196,7 @@ def plane_roses(sample: Result) -> Figure:
 
 SERIES = {
     "coordination_number": "coordination number $Z$ [-]",
-    "deviator_fabric": r"deviator fabric $\Phi_1 - \Phi_2$ [-]",
+    "deviator_fabric": r"deviator fabric $\Phi_\mathrm{max} - \Phi_\mathrm{min}$ [-]",
     "anisotropy": "anisotropy $a$ [-]",
     "void_ratio": "void ratio $e$ [-]",
     "a_n": "$a_n$ [-]",

@@ -48,7 +48,7 @@ static void json_holds_everything(void **state) {
                             "--friction-angle", "30", "--json", NULL);
   json_t *root = parse(&run);
   /* What `hypofab fabric` tells of the fabric is there, with the same values; what it tells of the sample is not. */
-  const char *const of_sample[] = {"rattlers", "volume", "solid_volume", "void_ratio", "reading"};
+  const char *const of_sample[] = {"rattlers", "volume", "solid_volume", "void_ratio"};
   program_run fabric_run =
       program("fabric", SAMPLE("aniso_3000_contacts"), "--particles", SAMPLE("aniso_3000_particles"), "--json", NULL);
   json_t *fabric = parse(&fabric_run);
@@ -97,6 +97,32 @@ static void sliding_threshold(void **state) {
     run_free(&run);
   }
   assert_true(fraction[0] == fraction[1] && fraction[2] > 1.5 * fraction[0]);
+}
+
+/* What is left out on request is told, on the page and in JSON, also by the commands that go on from the fabric. */
+static void left_out_is_told(void **state) {
+  (void)state;
+  const char *const file = "wrong.txt"; /* programs run in the scratch folder */
+  scratch_write(file, "id1 id2 nx ny nz\n0 1 1 0 0\n1 2 nan 1 0\n2 0 0 0 1\n1 0 1 0 0\n");
+  const char *const commands[] = {"describe", "delta", "fabric", "directions"};
+  for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+    program_run run = program(commands[i], file, "--wrong=skip", "--duplicates=skip", "--json", NULL);
+    json_t *root = parse(&run);
+    assert_int_equal(number(root, "reading.listed"), 4);
+    assert_int_equal(number(root, "reading.used"), 2);
+    assert_int_equal(number(root, "reading.not_finite"), 1);
+    assert_int_equal(number(root, "reading.duplicates"), 1);
+    json_decref(root);
+    run_free(&run);
+  }
+  for (size_t i = 0; i < 3; i++) {
+    program_run run = program(commands[i], file, "--wrong=skip", "--duplicates=skip", NULL);
+    if (run.exit_code) fail_msg("%s", run.err);
+    assert_non_null(strstr(run.out, "contacts listed                    4\n"));
+    assert_non_null(strstr(run.out, "left out: not finite"));
+    assert_non_null(strstr(run.out, "left out: listed before"));
+    run_free(&run);
+  }
 }
 
 static void plane_sample(void **state) {
@@ -195,6 +221,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(json_holds_everything, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(sliding_threshold, scratch_make, scratch_remove),
+      cmocka_unit_test_setup_teardown(left_out_is_told, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(plane_sample, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(series, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(page_to_read, scratch_make, scratch_remove),

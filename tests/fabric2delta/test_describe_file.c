@@ -49,7 +49,7 @@ static void test_file_is_memory(void **state) {
   assert_all_near(9, b.stress.total[0], a.stress.total[0], 1e-11);
   assert_all_near(45, b.harmonics.coefficient, a.harmonics.coefficient, 1e-13);
   assert_near(b.strong.fraction, a.strong.fraction, 0);
-  assert_near(b.volume, 5, 0);
+  assert_near(b.sample.volume, 5, 0);
 }
 
 /* Four disks in a square, with volumes (areas) 1, 2, 3, 4, and their long axes. */
@@ -65,7 +65,7 @@ static void test_particle_list(void **state) {
       .particle_file = write_text("grains.txt", particles_of_square), .dimension = 2, .volume = 15};
   const hypofab_description d = describe_file(write_text("square.txt", contacts_of_square), &format);
   assert_int_equal(d.dimension, 2);
-  assert_near(d.void_ratio, 0.5, 1e-15);
+  assert_near(d.sample.void_ratio, 0.5, 1e-15);
   assert_int_equal(d.long_axes.count, 4);
   assert_near(d.long_axes.first2[0], 0.75, 1e-15);
   assert_near(d.long_axes.anisotropy, 1, 1e-14); /* 4 (3/4 - 1/2) */
@@ -114,7 +114,7 @@ static void test_parts(void **state) {
   assert_int_equal(d.fabric.rattlers, 0);
   assert_near(d.fabric.coordination_number, 2, 0);
   assert_int_equal(d.long_axes.count, 4);
-  assert_near(d.void_ratio, 0.5, 1e-15);
+  assert_near(d.sample.void_ratio, 0.5, 1e-15);
   assert_all_near(6, d.fabric_by_solid_volume, whole.fabric_by_solid_volume, 1e-15);
   assert_all_near(15, d.weighted[0].third4, whole.weighted[0].third4, 1e-14);
   assert_all_near(45, d.harmonics.coefficient, whole.harmonics.coefficient, 1e-15);

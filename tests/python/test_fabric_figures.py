@@ -259,10 +259,11 @@ def test_command_draws_what_the_files_have(tmp_path: Path, capsys: pytest.Captur
         (tmp_path / f"{name}.json").write_text(json.dumps(data))
     write_series(tmp_path / "cycles.csv")
     arguments = [str(tmp_path / f"{name}.json") for name in files] + [f"cyclic={tmp_path / 'cycles.csv'}"]
-    assert main(["fabric", *arguments, "-o", str(tmp_path)]) == 0
+    figures = tmp_path / "new" / "figures"
+    assert main(["fabric", *arguments, "-o", str(figures)]) == 0
     named = capsys.readouterr().out.split()
     stems = ("fabric_surface", "sphere_sphere", "disks_roses", "probes_rates", "probes_lost_gained", "series")
-    assert named == [str(tmp_path / f"{stem}.{suffix}") for stem in stems for suffix in ("png", "pdf")]
+    assert named == [str(figures / f"{stem}.{suffix}") for stem in stems for suffix in ("png", "pdf")]
     assert all(Path(name).stat().st_size > 4000 for name in named)
 
 
@@ -273,5 +274,7 @@ def test_other_files_are_refused(tmp_path: Path, text: str, capsys: pytest.Captu
     with pytest.raises(ResultError, match=r"other\.json"):
         read_json(path)
     assert main(["fabric", str(path)]) == 2
+    assert main(["fabric", str(path), "-o", str(path)]) == 2
+    assert "not a folder" in capsys.readouterr().err
     assert main(["fabric", str(tmp_path / "missing.json")]) == 2
     assert "missing.json" in capsys.readouterr().err
