@@ -51,6 +51,7 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
         zoom = None if options.zoom is None else options.zoom / 100
         save(figures.stress_strain(run, zoom=zoom), directory / "stress_strain")
         save(figures.volumetric(run, compression_positive=options.compression_positive), directory / "volumetric")
+        save(figures.stress_path(run), directory / "stress_path")
         tests = [test for test in stability_figures.read_stability(directory) if len(test.eps_q) > 2]
         if tests:
             save(stability_figures.figure(tests), directory / "stability")

@@ -110,6 +110,23 @@ def volumetric(run: Run, *, compression_positive: bool = False) -> Figure:
         return figure
 
 
+def stress_path(run: Run) -> Figure:
+    """Deviator along the axis over mean effective stress: undrained tests, cycles, extension below zero."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=COLUMN, layout="constrained")
+        axes = figure.add_subplot()
+        axes.axhline(0, color="0.4", linewidth=0.8)
+        for index, test in enumerate(run.tests):
+            axes.plot(test.p, test.q_signed, label=test.name, **line_style(index))
+        axes.set(
+            xlabel=rf"mean effective stress $p$ [{run.unit}]",
+            ylabel=rf"axial deviator $q$ [{run.unit}]",
+        )
+        axes.set_xlim(left=0)
+        _legend(figure, axes, columns=4)
+        return figure
+
+
 def _delta_symbol(name: str) -> str | None:
     """The symbol of a series named delta_A, with its index as in the paper; None for other names."""
     index = re.fullmatch(r"delta_([A-Za-z0-9]+)", name)

@@ -41,6 +41,7 @@ class TestResult:
     eps_q: Array
     rho: Array
     phi_mob: Array
+    q_signed: Array
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,7 @@ def read_test(path: str | Path) -> TestResult:
         eps_q=scalar("eps_q"),
         rho=scalar("rho"),
         phi_mob=scalar("phi_mob"),
+        q_signed=scalar("q_signed"),
     )
 
 

@@ -30,7 +30,7 @@ def columns_of_test(stiffness: float) -> dict[str, np.ndarray]:
         for index, component in enumerate(COMPONENTS):
             columns[f"{prefix}_{component}"] = np.full(ROWS, 10.0 * number + index)
     scalars = {"void_ratio": 0.6, "p": 100.0, "q": stiffness * eps_q, "eps_v": -0.25 * eps_q, "eps_q": eps_q}
-    scalars |= {"rho": 1.0, "phi_mob": 0.0}
+    scalars |= {"rho": 1.0, "phi_mob": 0.0, "q_signed": -stiffness * eps_q}
     return columns | {name: np.broadcast_to(value, ROWS) for name, value in scalars.items()}
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hypofab.__main__ import main
-from hypofab.figures import LINES, response_envelopes, stress_strain, volumetric
+from hypofab.figures import LINES, response_envelopes, stress_path, stress_strain, volumetric
 from hypofab.results import read_envelope, read_run
 
 
@@ -56,6 +56,14 @@ def test_envelopes_are_closed_to_scale_and_signed(envelope_file: Path, compressi
     assert arrow.xy == pytest.approx((0, -sign * 15))
 
 
+def test_stress_path_shows_extension_below_zero(run_directory: Path) -> None:
+    (axes,) = stress_path(read_run(run_directory)).axes
+    stiff = next(line for line in axes.lines if line.get_label() == "stiff")
+    assert stiff.get_xdata() == pytest.approx([100.0] * len(stiff.get_xdata()))
+    assert stiff.get_ydata()[-1] == pytest.approx(-40e3 * 2e-3)
+    assert axes.get_xlim()[0] == 0
+
+
 def test_line_styles_differ_without_colour() -> None:
     assert len({(style["linestyle"], style["linewidth"]) for style in LINES}) == len(LINES)
 
@@ -65,7 +73,7 @@ def test_plot_command_writes_png_and_pdf_and_names_them(
 ) -> None:
     assert main(["plot", "--zoom", "0.1", str(run_directory)]) == 0
     named = capsys.readouterr().out.split()
-    stems = ("stress_strain", "volumetric", envelope_file.stem)
+    stems = ("stress_strain", "volumetric", "stress_path", envelope_file.stem)
     assert named == [str(run_directory / f"{stem}.{suffix}") for stem in stems for suffix in ("png", "pdf")]
     assert Path(named[0]).read_bytes().startswith(b"\x89PNG")
     assert Path(named[1]).read_bytes().startswith(b"%PDF")
