@@ -46,6 +46,9 @@ int cmd_stability(int argc, char **argv);
 /** List the presets of element tests. */
 int cmd_presets(int argc, char **argv);
 
+/** The JSON Schema of decks. */
+int cmd_schema(int argc, char **argv);
+
 /** Check a deck without running it. */
 int cmd_check(int argc, char **argv);
 

@@ -1226,6 +1226,9 @@ hypofab_status hypofab_study_load(const char *path, hypofab_study **study);
  */
 hypofab_status hypofab_study_parse(const char *text, size_t length, const char *path, hypofab_study **study);
 
+/** The JSON Schema of decks, for editors: a text to be freed with free(); NULL when memory is short. */
+char *hypofab_deck_schema(void);
+
 /** Free a study; NULL is allowed. */
 void hypofab_study_free(hypofab_study *study);
 
