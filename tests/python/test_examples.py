@@ -1,6 +1,7 @@
 """The program on the example decks of the demonstration, against the figures of paper 000 and the exact integration."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -41,6 +42,15 @@ def dem_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def envelopes(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return run_program("envelope", "response_envelopes.yaml", tmp_path_factory.mktemp("envelopes"))
+
+
+def test_every_preset_has_an_example() -> None:
+    listed = subprocess.run([str(PROGRAM), "presets"], capture_output=True, text=True, timeout=60, check=True).stdout
+    names = {line.split()[0] for line in listed.splitlines() if not line.startswith(" ")}
+    decks = [path.read_text(encoding="utf-8") for path in (ROOT / "examples").glob("*.yaml")]
+    shown = {name for deck in decks for name in re.findall(r"preset: (\w+)", deck)}
+    assert "k0_unloading" in names
+    assert names - shown == set()
 
 
 def test_stiffness_is_that_of_the_exact_integration_and_near_the_paper(paper_run: Path) -> None:
