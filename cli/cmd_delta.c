@@ -24,7 +24,8 @@ enum {
   KEY_SET,
   KEY_VOID_RATIO,
   KEY_ELEMENTS,
-  KEY_POINTS
+  KEY_POINTS,
+  KEY_PART
 };
 
 typedef struct choices {
@@ -41,6 +42,10 @@ typedef struct choices {
 } choices;
 
 static const struct argp_option options[] = {
+    {.name = "part",
+     .key = KEY_PART,
+     .arg = "PART",
+     .doc = "Instead of FILE, the sums that `hypofab fabric` or `merge --partial` has written"},
     {.name = "R", .key = KEY_R, .arg = "NUMBER", .doc = "Size of the elastic strain range, |delta| (default: 1e-4)"},
     {.name = "c", .key = KEY_C, .arg = "NUMBER", .doc = "Parameter of the weight function f(a) (default: 0.05)"},
     {.name = "weight",
@@ -168,6 +173,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     case KEY_VOID_RATIO: parse_void_ratio(state, text, &chosen->target); return 0;
     case KEY_ELEMENTS: parse_elements(state, text, &chosen->target); return 0;
     case KEY_POINTS: parse_points(state, text, &chosen->target); return 0;
+    case KEY_PART: chosen->contacts.part = text; return 0;
     case KEY_R: chosen->R = parse_number(state, "--R", text); return 0;
     case KEY_C: chosen->c = parse_number(state, "--c", text); return 0;
     case KEY_SIGN: chosen->compression_positive = true; return 0;
@@ -255,6 +261,16 @@ static int show(const choices *chosen, const hypofab_fabric *fabric, uncertainty
   return chosen->json ? print_as_json(chosen, fabric, &map, found) : print_as_table(chosen, fabric, &map, found);
 }
 
+/* Sums of disks: N and F have no zz at once only there. */
+static bool is_of_disks(const hypofab_fabric *fabric) {
+  return fabric->fabric[2] == 0.0 && fabric->deviatoric_fabric[2] == 0.0;
+}
+
+static int refuse_disks(const char *part) {
+  fprintf(stderr, "hypofab: %s: a sample of two dimensions; expected three, as the map to delta has\n", part);
+  return CLI_BAD_INPUT;
+}
+
 int cmd_delta(int argc, char **argv) {
   static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1},
                                                {.argp = &uncertainty_argp, .group = 2},
@@ -280,7 +296,9 @@ int cmd_delta(int argc, char **argv) {
   chosen.contacts.sample = &sample;
   hypofab_status status = uncertainty_read(&chosen.contacts, &chosen.uncertainty, &fabric, &found);
   if (!status) status = axes_options_apply(&chosen.axes, &fabric);
-  const int exit_code = status ? cli_exit(status) : show(&chosen, &fabric, &found);
+  const int exit_code = status                                         ? cli_exit(status)
+                        : chosen.contacts.part && is_of_disks(&fabric) ? refuse_disks(chosen.contacts.part)
+                                                                       : show(&chosen, &fabric, &found);
   uncertainty_free(&found);
   return exit_code;
 }

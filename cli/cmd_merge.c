@@ -5,6 +5,7 @@
 #include "cli/cmd_fabric.h"
 #include "cli/commands.h"
 #include "cli/report.h"
+#include "cli/uncertainty_options.h"
 
 enum { KEY_JSON = 0x100, KEY_PARTIAL };
 
@@ -25,7 +26,8 @@ static const char doc[] =
     "chunks of a long list. The result is that of the whole list, bit for bit, in any order and any grouping.\v"
     "Example:\n"
     "  for f in rank_*.txt; do hypofab fabric $f --partial $f.part; done\n"
-    "  hypofab merge rank_*.part --json\n"
+    "  hypofab merge rank_*.part --partial whole.part\n"
+    "  hypofab delta --part whole.part --R 1e-4 --c 0.05\n"
     "\n"
     "Contacts that are listed in two parts are not found out.";
 
@@ -69,12 +71,15 @@ int cmd_merge(int argc, char **argv) {
   if (!status && chosen.partial) status = hypofab_fabric_sum_write(sum, chosen.partial);
   hypofab_fabric_sum_free(sum);
   if (status) return cli_exit(status);
+  const uncertainty found = uncertainty_of(&fabric);
   if (chosen.json) {
     json_t *object = fabric_to_json(&fabric);
     sample_to_json(&sample, &fabric, object);
+    uncertainty_to_json(&found, false, object);
     return print_json(object);
   }
   print_fabric(&fabric);
   print_sample(&sample, &fabric);
+  uncertainty_print(&found, &fabric, false);
   return cli_finish_output();
 }

@@ -66,9 +66,10 @@ static void parse_particles(struct argp_state *state, const char *text, hypofab_
 
 static void check(struct argp_state *state, const contact_options *chosen) {
   static const hypofab_contact_format none = {0};
-  if (!chosen->file == !chosen->has_tensor) argp_error(state, "give either a contact list or --N");
-  if (chosen->has_tensor && memcmp(&chosen->format, &none, sizeof none))
-    argp_error(state, "options that describe a contact list make no sense with --N");
+  const bool has_list = chosen->file, has_part = chosen->part;
+  if (has_list + chosen->has_tensor + has_part != 1) argp_error(state, "give either a contact list or --N");
+  if (!has_list && memcmp(&chosen->format, &none, sizeof none))
+    argp_error(state, "options that describe a contact list make no sense with %s", has_part ? "--part" : "--N");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state) {
@@ -99,7 +100,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       break;
     case ARGP_KEY_END:
       check(state, chosen);
-      if (!chosen->has_tensor) format_show_progress(format);
+      if (chosen->file) format_show_progress(format);
       break;
     default: return ARGP_ERR_UNKNOWN;
   }
@@ -113,7 +114,8 @@ const struct argp contact_argp = {.options = options, .parser = parse, .children
 hypofab_status contact_options_fabric(const contact_options *chosen, hypofab_fabric *fabric) {
   if (chosen->has_tensor) return hypofab_fabric_from_tensor(chosen->N, fabric);
   hypofab_fabric_sum *sum;
-  hypofab_status status = hypofab_fabric_sum_read(chosen->file, &chosen->format, &sum);
+  hypofab_status status = chosen->part ? hypofab_fabric_sum_load(chosen->part, &sum)
+                                       : hypofab_fabric_sum_read(chosen->file, &chosen->format, &sum);
   if (!status) status = hypofab_fabric_sum_result(sum, fabric, chosen->sample);
   if (!status && chosen->partial) status = hypofab_fabric_sum_write(sum, chosen->partial);
   hypofab_fabric_sum_free(sum);
@@ -121,5 +123,5 @@ hypofab_status contact_options_fabric(const contact_options *chosen, hypofab_fab
 }
 
 const hypofab_sample *contact_options_sample(const contact_options *options) {
-  return options->n_files == 1 && !options->has_tensor ? options->sample : NULL;
+  return (options->n_files == 1 || options->part) && !options->has_tensor ? options->sample : NULL;
 }

@@ -20,6 +20,7 @@ typedef struct contact_options {
   double N[6];
   hypofab_contact_format format;
   const char *partial;    /**< where to write the sums that `hypofab merge` takes; NULL: nowhere */
+  const char *part;       /**< sums so written, instead of a list (`hypofab delta`); NULL: none */
   hypofab_sample *sample; /**< set after parsing: filled with the fabric, except for N; NULL: not wanted */
 } contact_options;
 

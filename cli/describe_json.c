@@ -103,13 +103,6 @@ static json_t *network(int dimension, const hypofab_network *n) {
                    matrix(dimension, n->stress));
 }
 
-/* The test against isotropy of `hypofab fabric`. */
-static void add_significance(const hypofab_description *d, json_t *object) {
-  uncertainty found = {0};
-  found.has_significance = hypofab_fabric_significance(&d->fabric, &found.significance) == HYPOFAB_OK;
-  uncertainty_to_json(&found, false, object);
-}
-
 static json_t *sample(const hypofab_description *d) {
   return json_pack("{s:o, s:o, s:o, s:o}", "volume", number_to_json(d->sample.volume), "solid_volume",
                    number_to_json(d->sample.solid_volume), "void_ratio", number_to_json(d->sample.void_ratio),
@@ -165,6 +158,7 @@ json_t *description_to_json(const char *file, const hypofab_description *d) {
     json_decref(object);
     return NULL;
   }
-  add_significance(d, object);
+  const uncertainty found = uncertainty_of(&d->fabric);
+  uncertainty_to_json(&found, false, object);
   return object;
 }

@@ -5,6 +5,7 @@
 
 #include "cli/cmd_fabric.h"
 #include "cli/describe_report.h"
+#include "cli/uncertainty_options.h"
 
 /* ------------------------------------------------------------------ series */
 
@@ -133,6 +134,8 @@ static void print_stress(const hypofab_contact_stress *s) {
 void print_description(const hypofab_description *d) {
   print_fabric(&d->fabric);
   print_sample(&d->sample, &d->fabric);
+  const uncertainty found = uncertainty_of(&d->fabric);
+  uncertainty_print(&found, &d->fabric, false);
   putchar('\n');
   print_number("deviator fabric, N_1 - N_3 (plane: N_1 - N_2)", d->weighted[HYPOFAB_BY_NUMBER].deviator);
   print_number("mean branch length", d->mean_branch_length);

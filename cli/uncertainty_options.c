@@ -65,8 +65,9 @@ const struct argp uncertainty_argp = {.options = options, .parser = parse};
 /* ---------------------------------------------------------------- computing */
 
 void uncertainty_check(struct argp_state *state, const contact_options *contacts, const uncertainty_options *chosen) {
-  if (contacts->has_tensor && chosen->replicates)
-    argp_error(state, "--bootstrap draws contacts; the fabric tensor of --N has none");
+  if ((contacts->has_tensor || contacts->part) && chosen->replicates)
+    argp_error(state, "--bootstrap draws contacts; the %s has none",
+               contacts->part ? "file of --part" : "fabric tensor of --N");
   if (contacts->n_files > 1 && !chosen->replicates)
     argp_error(state, "%d contact lists: expected one, or --bootstrap to treat them as samples", contacts->n_files);
   if (contacts->n_files > 1 && chosen->blocks) argp_error(state, "--blocks cuts one sample; expected one contact list");
@@ -91,6 +92,12 @@ hypofab_status uncertainty_read(const contact_options *contacts, const uncertain
   if (status) return status;
   found->has_significance = fabric->contacts >= 2;
   return found->has_significance ? hypofab_fabric_significance(fabric, &found->significance) : HYPOFAB_OK;
+}
+
+uncertainty uncertainty_of(const hypofab_fabric *fabric) {
+  uncertainty found = {0};
+  found.has_significance = fabric->contacts >= 2 && !hypofab_fabric_significance(fabric, &found.significance);
+  return found;
 }
 
 hypofab_status uncertainty_intervals(uncertainty *found, const axes_options *axes, double R, double c,

@@ -59,6 +59,9 @@ hypofab_status uncertainty_intervals(uncertainty *found, const axes_options *axe
 /** The fabric without noise, by the bootstrap's scatter or, without one, that of independent contacts. */
 hypofab_status uncertainty_correct(const uncertainty *found, const hypofab_fabric *fabric, hypofab_fabric *corrected);
 
+/** The significance alone, of a fabric that is known already; nothing where the number of contacts is not. */
+uncertainty uncertainty_of(const hypofab_fabric *fabric);
+
 /** Add "significance" and "uncertainty" to a JSON object, as far as known. @param with_delta also what delta has */
 void uncertainty_to_json(const uncertainty *found, bool with_delta, json_t *object);
 

@@ -206,8 +206,42 @@ static void wrong_usage(void **state) {
   refuse("--turn: 'much' is not a number", "--turn=z:much", NULL, NULL);
 }
 
+/* Two parts, merged, give the delta of the whole list, to the last bit; sums of disks have none. */
+static void delta_of_merged_parts(void **state) {
+  (void)state;
+  const char *const head = "id1 id2 nx ny nz\n", *const rows[2] = {"0 1 1 0 0\n1 2 0 1 0\n", "2 0 0.6 0.8 0\n"};
+  const char *const lists[3] = {"whole.txt", "a.txt", "b.txt"}; /* programs run in the scratch folder */
+  char text[256];
+  for (int i = 0; i < 3; i++) {
+    snprintf(text, sizeof text, "%s%s%s", head, i == 2 ? "" : rows[0], i == 1 ? "" : rows[1]);
+    scratch_write(lists[i], text);
+  }
+  program_run runs[] = {program("fabric", "a.txt", "--partial", "a.part", NULL),
+                        program("fabric", "b.txt", "--partial", "b.part", NULL),
+                        program("merge", "b.part", "a.part", "--partial", "whole.part", NULL),
+                        program("fabric", "a.txt", "--plane", "--partial", "disks.part", NULL)};
+  for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+    if (runs[i].exit_code) fail_msg("%s", runs[i].err);
+    run_free(&runs[i]);
+  }
+  program_run whole = program("delta", "whole.txt", "--corrected", "--json", NULL),
+              merged = program("delta", "--part", "whole.part", "--corrected", "--json", NULL),
+              disks = program("delta", "--part", "disks.part", NULL),
+              both = program("delta", "whole.txt", "--part", "whole.part", NULL),
+              columns = program("delta", "--part", "whole.part", "--nx", "3", NULL);
+  if (whole.exit_code) fail_msg("%s", whole.err);
+  assert_string_equal(merged.out, whole.out);
+  assert_int_equal(disks.exit_code, 2);
+  assert_non_null(strstr(disks.err, "disks.part: a sample of two dimensions"));
+  assert_int_equal(both.exit_code, 2);
+  assert_int_equal(columns.exit_code, 2);
+  program_run *const used[] = {&whole, &merged, &disks, &both, &columns};
+  for (size_t i = 0; i < sizeof used / sizeof *used; i++) run_free(used[i]);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(delta_of_merged_parts, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(lines_for_decks_and_hosts, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(lines_for_opengeosys, scratch_make, scratch_remove),
       cmocka_unit_test_setup_teardown(the_deck_takes_its_lines, scratch_make, scratch_remove),
