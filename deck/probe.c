@@ -46,8 +46,10 @@ static hypofab_status prepare(run *run, const study_series *series, probe_result
     if (status && status != HYPOFAB_INTERRUPTED) {
       char reason[HYPOFAB_MESSAGE_SIZE];
       memcpy(reason, hypofab_last_message(), sizeof reason);
-      return hypofab_fail(status, "test '%s' stopped early in step %d: %s; its end is not there to probe",
-                          study->deck->tests[series->test].name, outcome.step + 1, reason);
+      const size_t length = strlen(reason); /* it names the step; its last full stop is for the caller to set */
+      return hypofab_fail(status, "the state to probe is not there, for test '%s' stopped early in %.*s",
+                          study->deck->tests[series->test].name,
+                          (int)(length - (length > 0 && reason[length - 1] == '.')), reason);
     }
     result->state = outcome.state;
   }

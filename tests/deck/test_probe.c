@@ -250,8 +250,9 @@ static void a_series_without_state_keeps_its_reason(void **unused) {
                                     "  - {name: f, axis: y, probes: 8, size: 0.02, series: [{name: s, state: calm}]}\n",
                                     scratch_path("out"));
   assert_int_equal(status, HYPOFAB_NOT_CONTROLLABLE);
-  assert_non_null(
-      strstr(hypofab_last_message(), "envelope 'e', series 'lost': test 'too_far' stopped early in step 1"));
+  assert_non_null(strstr(
+      hypofab_last_message(),
+      "envelope 'e', series 'lost': the state to probe is not there, for test 'too_far' stopped early in step 1"));
   table t = table_read(scratch_path("out/e.csv"));
   assert_int_equal(t.rows, 8);
   table_free(&t);
