@@ -46,6 +46,9 @@ int cmd_stability(int argc, char **argv);
 /** List the presets of element tests. */
 int cmd_presets(int argc, char **argv);
 
+/** A commented deck to start from. */
+int cmd_init(int argc, char **argv);
+
 /** The JSON Schema of decks. */
 int cmd_schema(int argc, char **argv);
 

@@ -18,6 +18,7 @@ static const struct command {
     {"check", cmd_check, "validate a deck and say what it would run"},
     {"materials", cmd_materials, "list the built-in sands, or show the parameters of one"},
     {"presets", cmd_presets, "list the presets of element tests and their parameters"},
+    {"init", cmd_init, "write a commented deck for a test, to start from"},
     {"schema", cmd_schema, "JSON Schema of decks, for editors"},
     {"fabric", cmd_fabric, "fabric tensor and its descriptors from a contact list"},
     {"directions", cmd_directions, "histogram of contact directions, for figures"},
