@@ -83,13 +83,14 @@ hypofab_status contact_columns_make(contact_columns *columns, const hypofab_cont
                                     const char *const (*usual)[TABLE_OTHER_NAMES + 1]) {
   columns->names = NULL;
   for (int role = 0; role < CONTACT_ROLES; role++) {
-    const bool whole = role == ROLE_ID1 || role == ROLE_ID2 || (role >= ROLE_CELL_X && role < ROLE_X1);
+    const bool id = role == ROLE_ID1 || role == ROLE_ID2, image = role >= ROLE_CELL_X && role < ROLE_X1;
+    const bool walls_are_told = format->walls != HYPOFAB_WALLS_UNKNOWN;
     table_request *request = &columns->requests[role];
     *request = (table_request){.role = contact_role_names[role],
                                .name = usual && usual[role][0] ? usual[role][0] : nothing,
                                .expected = expected_of(role),
-                               .whole = whole,
-                               .may_be_negative = whole && role >= ROLE_CELL_X && role < ROLE_X1,
+                               .whole = id || image,
+                               .may_be_negative = image || (id && walls_are_told),
                                .may_be_infinite = true};
     for (int i = 0; usual && i < TABLE_OTHER_NAMES; i++) request->other_names[i] = usual[role][i + 1];
   }

@@ -149,6 +149,22 @@ static void test_walls(void **state) {
   REFUSE(path, &bad, "ids of walls: '5-2'; expected ids and ranges");
 }
 
+/* Walls of negative ids, without a particle list, in every format of rows. */
+static void test_walls_of_negative_ids(void **state) {
+  (void)state;
+  const char *path = write_text("negative.txt", "id1 id2 nx ny nz\n0 1 1 0 0\n1 2 0 1 0\n2 -1 1 0 0\n");
+  hypofab_contact_format format = {0};
+  REFUSE(path, &format, ":4: column 2 (id2): '-1' is negative");
+  format.walls = HYPOFAB_WALLS_IN;
+  hypofab_sample sample;
+  const hypofab_fabric fabric = read_sample(path, &format, &sample);
+  assert_int_equal(fabric.contacts, 3);
+  assert_int_equal(fabric.particles, 3);
+  assert_int_equal(sample.report.walls, 1);
+  format.walls = HYPOFAB_WALLS_OUT;
+  assert_int_equal(read_fabric(path, &format).contacts, 2);
+}
+
 static void test_regions(void **state) {
   (void)state;
   const char *path = write_text("box.csv", box_text);
@@ -363,6 +379,7 @@ int main(void) {
                                      cmocka_unit_test(test_images),
                                      cmocka_unit_test(test_duplicates_in_little_memory),
                                      cmocka_unit_test(test_walls),
+                                     cmocka_unit_test(test_walls_of_negative_ids),
                                      cmocka_unit_test(test_regions),
                                      cmocka_unit_test(test_plane),
                                      cmocka_unit_test(test_threads),
