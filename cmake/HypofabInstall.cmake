@@ -14,6 +14,10 @@ install(
   EXPORT hypofab
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS hypofab_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(
+  FILES cli/completion/hypofab.bash
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME hypofab)
 install(FILES include/hypofab.h include/hypofab_describe.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${CMAKE_BINARY_DIR}/modules/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hypofab
         FILES_MATCHING PATTERN *.mod)
