@@ -196,11 +196,16 @@ def test_threads_get_the_same_bits(sand: hypofab.Material) -> None:
 
 def test_a_signal_ends_a_long_run(sand: hypofab.Material) -> None:
     start = hypofab.State.isotropic(100, 0.7)
+    # A shell starts what runs in the background with this signal ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        hypofab.element_test(sand, start, cycles(10_000_000))
-    timer.join()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            hypofab.element_test(sand, start, cycles(10_000_000))
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
 
 
 def test_steps_have_every_key_of_decks() -> None:
