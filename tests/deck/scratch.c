@@ -139,3 +139,12 @@ const json_t *summary_test(const json_t *summary, size_t index) {
   assert_non_null(test);
   return test;
 }
+
+hypofab_status scratch_run(const char *text, const char *directory, hypofab_progress progress, void *user) {
+  hypofab_study *study;
+  const hypofab_status loaded = hypofab_study_load(scratch_write("deck.yaml", text), &study);
+  if (loaded) fail_msg("%s", hypofab_last_message());
+  const hypofab_status status = hypofab_study_run(study, directory, progress, user);
+  hypofab_study_free(study);
+  return status;
+}

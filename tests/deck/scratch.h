@@ -8,6 +8,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include "hypofab.h"
 
 /** cmocka test setup and teardown: make and remove an empty temporary folder. */
 int scratch_make(void **state);
@@ -45,5 +46,9 @@ bool exists(const char *path);
 /** DIR/summary.json, to be released; and its test number index. */
 json_t *summary_read(const char *directory);
 const json_t *summary_test(const json_t *summary, size_t index);
+
+/** Run a deck given as text; the test fails when it is refused. Arguments and return value are those of
+ * hypofab_study_run. */
+hypofab_status scratch_run(const char *text, const char *directory, hypofab_progress progress, void *user);
 
 #endif
