@@ -18,7 +18,7 @@ install(
   FILES cli/completion/hypofab.bash
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME hypofab)
-install(FILES include/hypofab.h include/hypofab_describe.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${CMAKE_BINARY_DIR}/modules/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hypofab
         FILES_MATCHING PATTERN *.mod)
 
