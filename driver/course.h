@@ -16,6 +16,9 @@
  */
 void course_rates(const hypofab_step *step, const double stress[6], double rate[6]);
 
+/** Derivatives of course_rates: slope[j][i] is that of rate[i] with respect to stress[j]. Zero without turn. */
+void course_slope(const hypofab_step *step, const double stress[6], double slope[6][6]);
+
 /**
  * @brief Can a step with turn start from this stress?
  * @return HYPOFAB_NOT_UNIQUE when it is isotropic in the plane, HYPOFAB_NOT_CONTROLLABLE when the normal is no

@@ -4,8 +4,9 @@
 #include "base/message.h"
 #include "driver/course.h"
 #include "driver/cycle.h"
+#include "driver/element_test.h"
 #include "driver/finding.h"
-#include "driver/leg.h"
+#include "driver/sensitivity.h"
 #include "driver/step.h"
 
 /* An undrained step ends when p has fallen to this part of what it was: little above the integrator's tolerance. */
@@ -14,11 +15,11 @@ static const double lowest_part_of_p = 1e-5;
 /* Non-zero: the sink wants no more. */
 static int send(run *r, int event) {
   hypofab_row row;
-  if (!r->sink) return 0;
+  if (!r->sink && !r->sensitivity) return 0;
   quantity_row(&r->observer, r->time, &r->state, r->step_number, &row);
   row.event = event;
   row.stop = event == HYPOFAB_EVENT_STOP ? r->stop : -1;
-  return r->sink(&row, r->user);
+  return r->sensitivity ? sensitivity_deliver(r, &row) : r->sink(&row, r->user);
 }
 
 hypofab_status run_deliver(run *r, int event) {
@@ -40,14 +41,17 @@ static hypofab_status run_cycles(run *r, const hypofab_step *step) {
   cycle_plan plan;
   hypofab_step leg = *step;
   hypofab_status status = cycle_begin(r, step, &plan);
+  sensitivity_cycle_begins(r, step->cycle.quantity);
   for (long i = 0; !status && i < plan.legs; i++) {
     int kept;
     cycle_leg(&plan, i, &leg, &kept);
+    sensitivity_take_aim(r, step->cycle.relative || i == 2 * step->cycle.count ? AIM_ORIGIN : AIM_FIXED);
     status = leg_run(r, &leg);
     if (status || r->stop >= 0) return status;
     if (i == 2 * step->cycle.count) break; /* the way back to the start ends without a reversal */
     r->observer.half_cycles += 1.0;
     remember(r, step, r->last_reversal);
+    sensitivity_remember_reversal(r, step);
     if (kept && i + 1 < plan.legs) status = run_deliver(r, HYPOFAB_EVENT_REVERSAL);
     if (!status) status = watch(r, 0.5 * r->observer.half_cycles);
   }
@@ -60,6 +64,7 @@ static hypofab_status run_history(run *r, const hypofab_step *step) {
   hypofab_step leg = *step;
   hypofab_status status = HYPOFAB_OK;
   leg.max_time = 0.0;
+  sensitivity_take_aim(r, AIM_STEP_START);
   for (int i = 1; !status && i < history->n; i++) {
     const double duration = history->time[i] - history->time[i - 1];
     for (int k = 0; k < 6; k++) leg.rate[k] = (history->value[i][k] - history->value[i - 1][k]) / duration;
@@ -72,13 +77,21 @@ static hypofab_status run_history(run *r, const hypofab_step *step) {
   return status;
 }
 
+static void begin_step(run *r, const hypofab_step *step) {
+  sensitivity_leave_step(r);
+  observer_begin_step(&r->observer, step, &r->state);
+  sensitivity_enter_step(r);
+}
+
 /* Run one step. Its last state is a row of its own, also when it stops early. */
 static hypofab_status run_step(run *r, const hypofab_step *step) {
-  observer_begin_step(&r->observer, step, &r->state);
+  begin_step(r, step);
   r->stop = -1;
   r->lowest_p = lowest_part_of_p * r->observer.p;
   remember(r, step, r->step_start);
   remember(r, step, r->last_reversal);
+  sensitivity_remember_start(r, step);
+  sensitivity_remember_reversal(r, step);
   hypofab_status status = course_check(step, r->state.material.stress);
   if (!status) {
     if (step->cycle.count)
@@ -96,9 +109,10 @@ static hypofab_status run_step(run *r, const hypofab_step *step) {
   return status;
 }
 
-hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_state *initial,
+hypofab_status element_test_run(const hypofab_material *material, const hypofab_state *initial,
                                 const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
-                                hypofab_row_sink sink, void *user, hypofab_test_outcome *outcome) {
+                                const wanted_derivatives *wanted, hypofab_row_sink sink, void *user,
+                                hypofab_test_outcome *outcome) {
   run r = {.observer = {.material = material, .axis = 2, .normal = 1, .with_stability = options && options->stability},
            .sink = sink,
            .user = user,
@@ -107,7 +121,10 @@ hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_
   hypofab_status status = hypofab_state_check(material, initial);
   for (int i = 0; !status && i < n_steps; i++) status = step_check(&steps[i], i + 1);
   if (!status) status = integrator_create(material, options, &r.it);
-  if (!status && n_steps > 0) observer_begin_step(&r.observer, steps, &r.state); /* the first row is in its frame */
+  if (!status && wanted)
+    status = sensitivity_create(&r, initial, wanted->n, wanted->variations, integrator_tolerance(r.it),
+                                integrator_max_steps(r.it), wanted->sink, &r.sensitivity);
+  if (!status && n_steps > 0) begin_step(&r, steps); /* the first row is in its frame */
   if (!status) status = run_deliver(&r, HYPOFAB_EVENT_ROW);
   for (int i = 0; !status && i < n_steps; i++) {
     r.step_number = i;
@@ -122,6 +139,14 @@ hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_
     quantity_row(&r.observer, r.time, &r.state, r.step_number, &outcome->last);
     if (r.it) integrator_statistics(r.it, &outcome->integrator_steps, &outcome->evaluations);
   }
+  if (outcome) outcome->evaluations += sensitivity_evaluations(r.sensitivity);
+  sensitivity_free(r.sensitivity);
   integrator_free(r.it);
   return status;
+}
+
+hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_state *initial,
+                                const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
+                                hypofab_row_sink sink, void *user, hypofab_test_outcome *outcome) {
+  return element_test_run(material, initial, steps, n_steps, options, NULL, sink, user, outcome);
 }

@@ -10,7 +10,7 @@
 
 #include "base/message.h"
 #include "driver/integrate_method.h"
-#include "driver/tensor.h"
+#include "driver/path_rates.h"
 
 static const long default_max_steps = 1000000;
 
@@ -32,38 +32,25 @@ const char *hypofab_integrator_name(hypofab_integrator integrator) {
   return (unsigned)integrator < sizeof methods / sizeof *methods ? methods[integrator].name : NULL;
 }
 
-void integrator_sums(const test_state *state, const double D[6], test_state *rate) {
-  rate->path = tensor_norm(D);
-  rate->work = tensor_dot(state->material.stress, D);
-}
-
 int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   (void)time;
   integrator *it = user;
   const test_state *state = (const test_state *)N_VGetArrayPointer(y);
-  test_state *rate = (test_state *)N_VGetArrayPointer(ydot);
-  control_rates solved;
   it->n_evaluations++;
-  it->obstacle = control_solve(it->material, &state->material, it->step, it->branch, &solved);
+  it->obstacle =
+      path_rates(it->material, it->step, it->branch, state, (test_state *)N_VGetArrayPointer(ydot), &it->along);
   if (it->obstacle) return 1; /* recoverable: a smaller step may stay where rates exist */
   it->evaluated = *state;
-  it->along = solved.along;
-  memcpy(rate->strain, solved.stretching, sizeof rate->strain);
-  memcpy(rate->material.stress, solved.stress_rate, sizeof solved.stress_rate);
-  hypofab_delta_rate(it->material, state->material.delta, solved.stretching, it->branch, rate->material.delta);
-  const double volumetric = solved.stretching[0] + solved.stretching[1] + solved.stretching[2];
-  rate->material.void_ratio = (1.0 + state->material.void_ratio) * volumetric;
-  integrator_sums(state, solved.stretching, rate);
   return 0;
 }
 
 #if SUNDIALS_VERSION_MAJOR >= 7
-static int create_context(SUNContext *context) {
+int integrator_context(SUNContext *context) {
   if (SUNContext_Create(SUN_COMM_NULL, context)) return -1;
   return SUNContext_ClearErrHandlers(*context); /* a library does not print */
 }
 #else
-static int create_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
+int integrator_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
 
 void integrator_say_nothing(int code, const char *module, const char *function, char *message, void *user) {
   (void)code, (void)module, (void)function, (void)message, (void)user;
@@ -76,19 +63,18 @@ int integrator_create_linear_solver(integrator *it) {
   return it->linear_solver ? 0 : -1;
 }
 
-/* Components below these are integrated to an absolute error of tolerance times these. */
-static void set_absolute(integrator *it, const test_state *state) {
-  test_state *absolute = (test_state *)N_VGetArrayPointer(it->absolute);
+void integrator_absolute(const hypofab_material *material, double tolerance, const test_state *state,
+                         test_state *absolute) {
   double largest_stress = 0.0;
   for (int i = 0; i < 6; i++) largest_stress = fmax(largest_stress, fabs(state->material.stress[i]));
   /* The strain over which stress and delta change. */
-  const double strain_scale = it->material->m_R > 0.5 ? it->material->R : 1e-4;
+  const double strain_scale = material->m_R > 0.5 ? material->R : 1e-4;
   for (int i = 0; i < 6; i++) {
-    absolute->material.stress[i] = it->tolerance * largest_stress;
-    absolute->material.delta[i] = it->tolerance * strain_scale;
-    absolute->strain[i] = it->tolerance * strain_scale;
+    absolute->material.stress[i] = tolerance * largest_stress;
+    absolute->material.delta[i] = tolerance * strain_scale;
+    absolute->strain[i] = tolerance * strain_scale;
   }
-  absolute->material.void_ratio = it->tolerance * 1e-3;
+  absolute->material.void_ratio = tolerance * 1e-3;
   /* The sums follow the rest; near a peak, where strain grows without bound, they must not hold it back. */
   absolute->path = 1.0;
   absolute->work = largest_stress;
@@ -110,7 +96,7 @@ hypofab_status integrator_create(const hypofab_material *material, const hypofab
   it->material = material;
   it->tolerance = options->tolerance > 0.0 ? fmax(options->tolerance, 1e-13) : methods[options->integrator].tolerance;
   it->max_steps = options->max_steps > 0 ? options->max_steps : default_max_steps;
-  if (create_context(&it->context) == 0) {
+  if (integrator_context(&it->context) == 0) {
     it->y = N_VNew_Serial(N_STATE, it->context);
     it->absolute = N_VNew_Serial(N_STATE, it->context);
     it->inside = N_VNew_Serial(N_STATE, it->context);
@@ -154,7 +140,7 @@ void integrator_new_leg(integrator *it) { it->step_count = 0; }
 hypofab_status integrator_start(integrator *it, double time, const test_state *state, double first_step) {
   if (stands_at(it, time, state)) return HYPOFAB_OK;
   memcpy(N_VGetArrayPointer(it->y), state, sizeof *state);
-  set_absolute(it, state);
+  integrator_absolute(it->material, it->tolerance, state, (test_state *)N_VGetArrayPointer(it->absolute));
   it->obstacle = HYPOFAB_OK;
   it->is_fresh = 0;
   it->before = it->now = time;
@@ -221,6 +207,8 @@ int integrator_glimpse(integrator *it, double time, test_state *state) {
 }
 
 double integrator_tolerance(const integrator *it) { return it->tolerance; }
+
+long integrator_max_steps(const integrator *it) { return it->max_steps; }
 
 int integrator_knows_along(const integrator *it, const test_state *state, double *along) {
   if (it->obstacle || memcmp(&it->evaluated, state, sizeof *state) != 0) return 0;

@@ -8,6 +8,7 @@
 
 #include "driver/course.h"
 #include "driver/integrate_method.h"
+#include "driver/path_rates.h"
 #include "driver/tensor.h"
 
 /* The part of the stress rate that is not linear over all D: what multiplies jump (hypofab_linear_parts). */
@@ -50,7 +51,7 @@ static int residual(sunrealtype time, N_Vector y, N_Vector yp, N_Vector rest, vo
   }
   left->material.void_ratio = rate->material.void_ratio - (1.0 + state->material.void_ratio) * (D[0] + D[1] + D[2]);
   test_state sums;
-  integrator_sums(state, D, &sums);
+  path_sums(state, D, &sums);
   left->path = rate->path - sums.path;
   left->work = (rate->work - sums.work) / it->stiffness;
   return 0;

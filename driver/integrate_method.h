@@ -59,8 +59,12 @@ struct integrator {
 /** Right-hand side: the rates under the conditions of the step, on the branch of the current segment. */
 int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *it);
 
-/** Rates of the path length and the work at a strain rate. */
-void integrator_sums(const test_state *state, const double D[6], test_state *rate);
+/** A context of SUNDIALS that prints nothing; 0 for success. */
+int integrator_context(SUNContext *context);
+
+/** Components below these are integrated to an absolute error of tolerance times these; filled, times the tolerance. */
+void integrator_absolute(const hypofab_material *material, double tolerance, const test_state *state,
+                         test_state *absolute);
 
 /** Create the dense linear solver of an implicit method; 0 for success. */
 int integrator_create_linear_solver(integrator *it);

@@ -8,6 +8,7 @@
 #include "driver/course.h"
 #include "driver/events.h"
 #include "driver/schedule.h"
+#include "driver/sensitivity.h"
 
 /* What happens inside an integrator step: a quantity may meet a value and turn back within it. */
 enum { N_GLIMPSES = 3 };
@@ -93,11 +94,13 @@ static hypofab_status consider(run *r, const event *e, double to, const test_sta
 /* Start on the branch that the conditions select; or, having left one, on the other. */
 static hypofab_status start_segment(run *r, const hypofab_step *step, event *branch) {
   const hypofab_branch left = branch->branch;
+  sensitivity_catch_up(r);
   hypofab_status status = control_choose_branch(r->observer.material, &r->state.material, step, &branch->branch);
   if (status) return status;
   if (left == HYPOFAB_LOADING) branch->branch = HYPOFAB_REVERSAL;
   if (left == HYPOFAB_REVERSAL) branch->branch = HYPOFAB_LOADING;
   integrator_set_step(r->it, step, branch->branch);
+  sensitivity_begin_segment(r, step, branch->branch);
   return integrator_start(r->it, r->time, &r->state, 0.0);
 }
 
@@ -121,6 +124,7 @@ static hypofab_status handle_events(run *r, const hypofab_step *step, schedule *
     r->time = first.time;
     r->state = first.state;
     if (first.what == &row) {
+      sensitivity_at_row(r, &row, s->last_row);
       s->last_row = row.mark.value;
       status = run_deliver(r, HYPOFAB_EVENT_ROW);
       if (status) return status;
@@ -154,6 +158,7 @@ static hypofab_status integrate_leg(run *r, const hypofab_step *step, schedule *
     if (status || ended || !whole || to < stop) continue;
     if (is_row) {
       s->rows_done++;
+      sensitivity_at_timed_row(r, step, s);
       status = run_deliver(r, HYPOFAB_EVENT_ROW);
     } else if (s->end_is_timed) {
       ended = 1;
@@ -172,5 +177,8 @@ hypofab_status leg_run(run *r, const hypofab_step *leg) {
   hypofab_status status = schedule_make(r, leg, &s);
   if (status) return status;
   integrator_new_leg(r->it);
-  return schedule_is_met(r, &s) ? HYPOFAB_OK : integrate_leg(r, leg, &s);
+  sensitivity_begin_leg(r, leg, &s);
+  if (!schedule_is_met(r, &s)) status = integrate_leg(r, leg, &s);
+  if (!status) sensitivity_end_leg(r, leg, &s);
+  return status;
 }

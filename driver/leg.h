@@ -8,6 +8,9 @@
 
 #include "driver/integrate.h"
 
+/** The derivatives of a test (driver/sensitivity.h). */
+typedef struct sensitivity sensitivity;
+
 /** A test under way. */
 typedef struct run {
   observer observer;
@@ -22,6 +25,7 @@ typedef struct run {
   double last_reversal[HYPOFAB_MAX_STOPS]; /**< and at the last reversal */
   double lowest_p;                         /**< an undrained step ends here; 0: no such bound */
   int stop;                                /**< the stop that ended the step; -1: none yet */
+  sensitivity *sensitivity;                /**< NULL: none are wanted */
 } run;
 
 /** Hand a row to the sink: HYPOFAB_INTERRUPTED when it wants no more. @param event hypofab_event, or minus a status */

@@ -39,6 +39,7 @@ extern "C" {
 #include "hypofab_change.h" /* IWYU pragma: export */
 #include "hypofab_deck.h" /* IWYU pragma: export */
 #include "hypofab_describe.h" /* IWYU pragma: export */
+#include "hypofab_sensitivity.h" /* IWYU pragma: export */
 /* clang-format on */
 
 #if defined(__GNUC__)

@@ -1,0 +1,105 @@
+/**
+ * @file hypofab_sensitivity.h
+ * @brief Part of hypofab.h: exact derivatives of the rates, and of element tests, with respect to parameters and
+ * initial states (docs/sensitivities.md).
+ *
+ * What is differentiated is named by a variation: the derivative of every parameter and of the initial state with
+ * respect to one number x. That number may be a parameter itself, or anything parameters and state follow from.
+ */
+#ifndef HYPOFAB_SENSITIVITY_H
+#define HYPOFAB_SENSITIVITY_H
+
+#ifndef HYPOFAB_H
+#error "include hypofab.h, which includes this file"
+#endif
+
+/** The derivative with respect to one number x of all that a test starts from. Zero in a field: it does not depend on
+ * x. */
+typedef struct hypofab_variation {
+  hypofab_material material; /**< of the parameters; those of K_w and e_0 are not used */
+  hypofab_state initial;     /**< of the initial state */
+  double water; /**< of ln(stiffness of the pore water) of the steps that have one (hypofab_step_pore_water) */
+} hypofab_variation;
+
+/** Name of a number that hypofab_variation_of knows (0-based), e.g. "phi_c", "void_ratio", "sig_xx"; NULL past the
+ * last. */
+const char *hypofab_variation_name(int index);
+
+/**
+ * @brief The variation of one parameter, or of one number of the initial state.
+ *
+ * Names: the parameters of the model ("phi_c" .. "chi", without e_0), the derivative being per unit of the parameter;
+ * "K_w", of which the stiffness of pore water in all steps is taken to be a multiple; "void_ratio", "sig_xx" ..
+ * "sig_yz" and "delta_xx" .. "delta_yz" of the initial state (tension positive); "p", which changes the isotropic part
+ * of the initial stress, compression positive. Delta is kept when R varies: add its own derivative where delta follows
+ * from R.
+ * @param name      one of hypofab_variation_name
+ * @param material  K_w alone is looked at, and for "K_w" alone; may be NULL otherwise
+ * @param variation filled
+ * @return HYPOFAB_BAD_ARGUMENT for an unknown name or a K_w of zero
+ */
+hypofab_status hypofab_variation_of(const char *name, const hypofab_material *material, hypofab_variation *variation);
+
+/**
+ * @brief Receives a row and its derivatives. A non-zero return stops the test with HYPOFAB_INTERRUPTED.
+ * @param row        the same row, to the last bit, that hypofab_test_run delivers
+ * @param derivative n_variations times HYPOFAB_N_QUANTITIES numbers: derivative[k * HYPOFAB_N_QUANTITIES + quantity] is
+ *                   that of row->value[quantity] with respect to the x of variation k. NaN where there is none:
+ * quantities of stability; a row at which a test stopped early; a quantity at its kink (|s| at s = 0 that starts to
+ * grow with x, the Lode angle where principal stresses part). Rows are compared one by one: where the place of a row
+ * moves with x (it is due when a quantity meets a value, or its step began when one did) the derivative is that along
+ * with the place, time among the quantities that move. The derivative at a fixed value of a quantity Q is, on a curve,
+ *                   dy/dx - (dy/dQ) dQ/dx.
+ */
+typedef int (*hypofab_sensitivity_sink)(const hypofab_row *row, const double *derivative, void *user);
+
+/** Most variations of a run. */
+#define HYPOFAB_MAX_VARIATIONS 256
+
+/**
+ * @brief Run an element test with derivatives.
+ *
+ * The test itself runs as in hypofab_test_run, whatever its integrator. The variational equations are integrated along
+ * with it by ERKStep, with an error control of their own at the same tolerance. Changes of branch, turns of the path
+ * and moving ends are accounted for. Where the derivatives grow without bound (at a peak under stress control) they are
+ * NaN from there on; the test itself goes on.
+ * @param n_variations 0 .. HYPOFAB_MAX_VARIATIONS
+ * @param variations   n_variations of them; a variation of a delta that is zero is refused, for there is no derivative
+ * @param sink         receives the rows
+ * @param outcome      as in hypofab_test_run; evaluations counts those of the variational equations too
+ * @return as hypofab_test_run
+ */
+hypofab_status hypofab_test_sensitivities(const hypofab_material *material, const hypofab_state *initial,
+                                          const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
+                                          int n_variations, const hypofab_variation *variations,
+                                          hypofab_sensitivity_sink sink, void *user, hypofab_test_outcome *outcome);
+
+/**
+ * Derivatives of the rates of stress and intergranular strain at a state and a stretching. Of every array by_x, by_x[j]
+ * is the derivative with respect to component (or parameter) j: six tensor components. A shear component of a tensor
+ * stands for both of its places (xy and yx).
+ */
+typedef struct hypofab_rate_derivatives {
+  double stress_by_stretching[6][6];                   /**< the stiffness of the branch [stress] */
+  double stress_by_stress[6][6];                       /**< [1/time] */
+  double stress_by_delta[6][6];                        /**< [stress/time] */
+  double stress_by_void_ratio[6];                      /**< [stress/time] */
+  double stress_by_parameter[HYPOFAB_N_PARAMETERS][6]; /**< in the order of hypofab_material */
+  double delta_by_stretching[6][6];                    /**< [-] */
+  double delta_by_delta[6][6];                         /**< [1/time] */
+  double delta_by_parameter[HYPOFAB_N_PARAMETERS][6];
+} hypofab_rate_derivatives;
+
+/**
+ * @brief Derivatives of the rates on a given branch.
+ *
+ * On the isotropic axis, where the stress factor F has a cone, its slope is taken as zero, the mean over all
+ * directions; at delta = 0 derivatives with respect to delta are zero.
+ * @param branch HYPOFAB_LOADING or HYPOFAB_REVERSAL with intergranular strain, HYPOFAB_PLAIN without
+ * @return HYPOFAB_OUT_OF_DOMAIN; HYPOFAB_BAD_ARGUMENT for a branch the material does not have
+ */
+hypofab_status hypofab_rate_derivatives_at(const hypofab_material *material, const hypofab_state *state,
+                                           const double stretching[6], hypofab_branch branch,
+                                           hypofab_rate_derivatives *derivatives);
+
+#endif
