@@ -30,7 +30,7 @@ typedef enum hypofab_contact_weight {
 typedef struct hypofab_direction_fabric {
   int64_t count;                  /**< directions */
   double total;                   /**< sum of their weights */
-  double first2[6], first4[15];   /**< first kind: moments <n n>, <n n n n> */
+  double first2[6], first4[15];   /**< first kind: moments `<n n>`, `<n n n n>` */
   double second2[6], second4[15]; /**< second kind: density f0 F:nn, f0 F::nnnn */
   double third2[6], third4[15];   /**< third kind: density f0 (1 + D:nn + D::nnnn), traceless */
   double anisotropy; /**< of D of rank 2: sqrt(3/2 D:D), paper 000's a; in the plane sqrt(1/2 D:D), paper 003's a_n */
