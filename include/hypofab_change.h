@@ -281,7 +281,9 @@ typedef struct hypofab_uncertainty {
 /**
  * @brief Intervals of a bootstrap.
  * @param level     share of the replicates inside, e.g. 0.95
- * @param R, c, weight of the map to delta (hypofab_fabric_to_delta_weighted; weight NULL: exponential)
+ * @param R         of the map to delta, hypofab_fabric_to_delta_weighted
+ * @param c         of the map
+ * @param weight    of the map; NULL: exponential
  * @param corrected non-zero: weight and delta follow from the fabric without noise
  */
 hypofab_status hypofab_bootstrap_uncertainty(const hypofab_bootstrap *bootstrap, double level, double R, double c,

@@ -51,7 +51,7 @@ const char *hypofab_study_unit(const hypofab_study *study);
 int hypofab_study_sign(const hypofab_study *study);
 
 /**
- * @brief Run every test of a study and write DIR/<test>.csv each and DIR/summary.json.
+ * @brief Run every test of a study and write `DIR/<test>.csv` each and DIR/summary.json.
  * @param study     a loaded study
  * @param directory created when missing; files appear whole or not at all
  * @param progress  may be NULL
@@ -76,7 +76,7 @@ hypofab_status hypofab_study_test_run(const hypofab_study *study, int index, hyp
                                       int (*watch)(int step, double done, void *user), void *user, int *columns,
                                       hypofab_test_outcome *outcome);
 
-/** Compute every envelope of a study and write DIR/<envelope>.csv each. Arguments as hypofab_study_run. */
+/** Compute every envelope of a study and write `DIR/<envelope>.csv` each. Arguments as hypofab_study_run. */
 hypofab_status hypofab_study_envelopes(const hypofab_study *study, const char *directory, hypofab_progress progress,
                                        void *user);
 

@@ -39,16 +39,13 @@ typedef enum hypofab_walls {
   HYPOFAB_WALLS_IN = 2       /**< they count as contacts of their one particle; a wall is no particle */
 } hypofab_walls;
 
-/** Told how far a call is: what is being done and the fraction done. Non-zero asks to stop. */
-typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
-
 /**
  * How a contact file is to be read. NULL or 0 in a field takes its default, so that {0} reads every file that shows
  * its own format (docs/contact_files.md).
  */
 typedef struct hypofab_contact_format {
   const char *id1, *id2, *nx, *ny, *nz; /**< column names, or 1-based column numbers as text; default: these names */
-  char separator;                       /**< ',' ';' '\t' ' ', or 0: what the first row shows */
+  char separator;                       /**< comma, semicolon, tab, blank, or 0: what the first row shows */
   int64_t particles;            /**< N_p; 0: the particle file if given, else the number of different ids in the list */
   const char *particle_file;    /**< particle list: one row per particle; column "id" when it has a header */
   const char *kind;             /**< "table", "lammps", "vtk", "mercury", "pfc", "spam", "npy"; NULL: what it shows */

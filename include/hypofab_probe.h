@@ -49,8 +49,9 @@ hypofab_status hypofab_subspace_axisymmetric(int axis, hypofab_subspace *space);
 
 /**
  * @brief The plane that two tensors span.
- * @param first, second tensors of any length, not parallel. The first basis tensor is along the first; the second is
- *        what is left of the second after that
+ * @param first  tensor of any length; the first basis tensor is along it
+ * @param second tensor of any length, not parallel to the first; the second basis tensor is what is left of it after
+ * that
  */
 hypofab_status hypofab_subspace_plane(const double first[6], const double second[6], hypofab_subspace *space);
 
@@ -103,7 +104,7 @@ typedef struct hypofab_answer {
   hypofab_status status;   /**< 0, or why this probe has no answer, e.g. HYPOFAB_NOT_CONTROLLABLE beyond a peak */
 } hypofab_answer;
 
-/** Told how far a run is: what is being computed and the fraction done. Non-zero asks to stop. */
+/** Told how far a long call is: what is being computed and the fraction done. Non-zero asks to stop. */
 typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
 
 /**

@@ -131,12 +131,21 @@ def fortran(app: Sphinx) -> str:
     return fortran_modules.pages(ROOT / "umat")
 
 
+def c_headers(app: Sphinx) -> str:
+    """The public headers, as hypofab.h includes them."""
+    header = (ROOT / "include/hypofab.h").read_text(encoding="utf-8")
+    app.env.note_dependency(str(ROOT / "include/hypofab.h"))
+    parts = ["hypofab.h", *re.findall(r'^#include "(\w+\.h)"', header, flags=re.MULTILINE)]
+    return "\n\n".join(f"## {part}\n\n```{{doxygenfile}} {part}\n```" for part in parts)
+
+
 GENERATORS: dict[str, Callable[[Sphinx], str]] = {
     "commands": commands,
     "deck keys": deck_keys,
     "python names": python_names,
     "other pages": other_pages,
     "fortran modules": fortran,
+    "c headers": c_headers,
 }
 
 
