@@ -98,7 +98,7 @@ contains
       frozen(:, k) = apply_L(start%h, x) + weight * start%h%N
       f(:, k) = frozen(:, k)
       if (k == 0) cycle
-      call linearise(m, start%h, start%s, x, weight, frozen(:, k), by_stress(:, :, k), by_void_ratio)
+      call linearise(m, start%h, start%s, x, weight, by_stress(:, :, k), by_void_ratio)
       frozen(:, k) = frozen(:, k) + (nodes%void_ratio(k) - start%void_ratio) * by_void_ratio
     end do
     call integrate_to_nodes(rule, f, u)

@@ -19,11 +19,11 @@ module umat_delta_path
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: branch_plain, branch_loading
-  use umat_tensor, only: ddot, norm, multiplicity
+  use umat_tensor, only: ddot, norm
   implicit none
   private
  public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, first_guess, measures_length, kappa_slope
-  public :: delta_influence
+  public :: delta_influence_type, delta_influence
 
   !> Below this v, Eq. (20) cancels more digits than the limit v = 0 leaves out.
   real(wp), parameter :: on_axis = sqrt(epsilon(1.0_wp))
@@ -39,6 +39,7 @@ module umat_delta_path
     real(wp) :: start !< x at the start
     real(wp) :: along(6) !< unit strain direction d
     real(wp) :: across(6) !< straight: delta at x = 0; plane: unit direction of the part of delta normal to d
+    real(wp) :: normal(6) !< straight and plane: unit direction of the part of delta normal to d, or zero
     real(wp) :: kappa !< first integral of the plane path
     real(wp) :: u !< delta:d/R at the start of the increment, below zero when a reversal came first
     real(wp) :: v !< size of the part of delta/R normal to d at the start
@@ -54,6 +55,12 @@ module umat_delta_path
     real(wp) :: cosine = 1.0_wp, sine = 0.0_wp !< of the angle between delta and d; loading only
     real(wp) :: sine_beta = 0.0_wp !< sine^beta_r
   end type path_point_type
+
+  !> Derivative of delta with respect to eta, with frame = (d, normal):
+  !>   factor eta + sum_ij frame_i plane(i, j) (frame_j:eta) [strain].
+  type :: delta_influence_type
+    real(wp) :: factor = 0.0_wp, plane(2, 2) = 0.0_wp
+  end type delta_influence_type
 
 contains
 
@@ -72,23 +79,25 @@ contains
     ! |v| only decays: what is below rounding now stays there.
     real(wp), parameter :: negligible = 10.0_wp * epsilon(1.0_wp)
 
-    path = delta_path_type(kind_fixed, 0.0_wp, direction, delta, 0.0_wp, 0.0_wp, 0.0_wp, turn, &
+    path = delta_path_type(kind_fixed, 0.0_wp, direction, delta, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, turn, &
                            intergranular_type(0.0_wp, 0.0_wp, 0.0_wp))
     if (branch == branch_plain) return
+    u = ddot(delta, direction) / m%R
+    if (branch == branch_loading) u = max(0.0_wp, u)
+    normal = delta / m%R - u * direction
+    v = norm(normal)
+    if (v > negligible) path%normal = normal / v
     if (branch /= branch_loading) then
       path%kind = kind_straight
       return
     end if
-    u = max(0.0_wp, ddot(delta, direction)) / m%R
-    normal = delta / m%R - u * direction
-    v = norm(normal)
     path%u = u - turn / m%R
     path%v = v
     rho_beta = min(1.0_wp, hypot(u, v))**m%beta_r
     if (v > negligible) then
       path%kind = kind_plane
       path%start = asinh(u / v)
-      path%across = normal / v
+      path%across = path%normal
       path%kappa = (1.0_wp - rho_beta) / v**m%beta_r
     else if (u < 1.0_wp - negligible) then
       path%kind = kind_axis
@@ -211,39 +220,25 @@ contains
   !> @param x, point parameter and point
   !> @param done     length of strain done since the start of the increment, a reversal that came first included
   !> @param integral of kappa_slope over x, from the path's start
-  !> @return (component of eta, component of delta) [strain]
   pure function delta_influence(m, path, x, point, done, integral) result(influence)
     type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     real(wp), intent(in) :: x, done, integral
     type(path_point_type), intent(in) :: point
-    real(wp) :: influence(6, 6)
-    real(wp) :: normal_share, in_plane(6), along(6), across(6), on_along(6)
-    integer :: i
+    type(delta_influence_type) :: influence
 
-    along = multiplicity * path%along
     if (path%kind == kind_straight) then
-      normal_share = done
-      on_along = 0.0_wp
-    else
-      normal_share = influence_normal(m, path, x, point)
-      ! Eq. (14) on the path: d delta/d lambda = d - rho^beta_r cos(theta) deltahat.
-      on_along = done * (path%along - point%rho_beta * point%cosine * point%g%direction) - normal_share * path%along
+      influence%factor = done
+      return
     end if
-    if (path%kind == kind_plane .and. path%v >= on_axis) then
-      across = multiplicity * path%across
-      in_plane = influence_in_plane(m, path, point, integral) - normal_share * path%across
-      do i = 1, 6
-        influence(:, i) = on_along(i) * along + in_plane(i) * across
-      end do
-    else
-      do i = 1, 6
-        influence(:, i) = on_along(i) * along
-      end do
-    end if
-    do i = 1, 6
-      influence(i, i) = influence(i, i) + normal_share
-    end do
+    influence%factor = influence_normal(m, path, x, point)
+    ! Eq. (14) on the path: d delta/d lambda = d - rho^beta_r cos(theta) deltahat.
+    associate (loss_along => point%rho_beta * point%cosine)
+      influence%plane(:, 1) = done*[1.0_wp - loss_along * point%cosine, -loss_along * point%sine]
+    end associate
+    influence%plane(1, 1) = influence%plane(1, 1) - influence%factor
+    if (path%kind == kind_plane .and. path%v >= on_axis) &
+      influence%plane(:, 2) = influence_in_plane(m, path, point, integral) - [0.0_wp, influence%factor]
   end function delta_influence
 
   !> Factor of eta normal to the plane of the path; theory.md Eq. (19) [strain].
@@ -270,13 +265,13 @@ contains
     factor = m%R * (u - path%u * v_over_start)
   end function influence_normal
 
-  !> Answer of delta to eta along the unit normal part of delta; theory.md Eq. (20) [strain].
+  !> Answer of delta to eta along the unit normal part of delta, along d and that; theory.md Eq. (20) [strain].
   pure function influence_in_plane(m, path, point, integral) result(answer)
     type(material_type), intent(in) :: m
     type(delta_path_type), intent(in) :: path
     type(path_point_type), intent(in) :: point
     real(wp), intent(in) :: integral
-    real(wp) :: answer(6)
+    real(wp) :: answer(2)
     real(wp) :: base, kappa_change, x_change, rho_change
     if (path%turn > 0.0_wp) then
       base = path%v
@@ -289,8 +284,8 @@ contains
       x_change = (base - kappa_change * integral) / rho
       rho_change = path%kappa * point%sine_beta * cosine * rho * point%rho_beta * x_change + &
                    kappa_slope(m, point) * kappa_change
-      answer = m%R * ((rho_change * cosine + rho * x_change * sine**2 - rho * sine) * path%along + &
-                         (rho_change * sine - rho * x_change * sine * cosine + rho * cosine) * path%across)
+      answer = m%R*[rho_change * cosine + rho * x_change * sine**2 - rho * sine, &
+                      rho_change * sine - rho * x_change * sine * cosine + rho * cosine]
     end associate
   end function influence_in_plane
 

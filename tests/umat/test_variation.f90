@@ -3,14 +3,17 @@
 !> This program is the model compiled with HYPOFAB_QUADRUPLE; differences with h = 1e-12 are exact to about 1e-20 there.
 !> Prints the worst error of each case and stops with an error where a bound is exceeded.
 program test_variation
-  use umat_intergranular, only: intergranular_direction
+  use umat_delta_path, only: delta_influence_type
+  use umat_intergranular, only: intergranular_type, intergranular_direction, operands
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props
   use umat_rate, only: rate_of_stress
   use umat_sands, only: sands, find_sand
   use umat_status, only: status_ok, branch_plain, branch_loading, branch_reversal
-  use umat_tensor, only: norm, deviator, ddot, unit_tensor
-  use umat_variation, only: vary_rate_of_stress
+  use umat_tensor, only: norm, deviator, ddot, trace, unit_tensor
+  use umat_variation, only: linear_rate_type, linear_rate, operand_influence_type, operand_influence, direct_parts, part_d, &
+                            part_normal, part_that, part_unit
+  use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, sensitivities
   implicit none
 
   !> How far a stress is from the isotropic axis.
@@ -44,7 +47,7 @@ program test_variation
 
 contains
 
-  !> Largest relative error over the six variations of one random state.
+  !> Largest relative error over the six components of eta, of one random state.
   !> @param deviatoric size of the deviator over p; 0: variations of stress are isotropic too, because the stress factor
   !>                   has a cone on the isotropic axis
   function error_of_state(deviatoric, branch, sand) result(error)
@@ -52,9 +55,10 @@ contains
     integer, intent(in) :: branch, sand
     real(wp) :: error
     type(material_type) :: m
-    real(wp) :: stress(6), delta(6), void_ratio, d(6), d_stress(6, 6), d_delta(6, 6), d_void_ratio(6)
-    real(wp) :: rate(6), variation(6, 6), forth(6), back(6), unit(6), h, p, u(3)
-    integer :: v, status
+    type(delta_influence_type) :: on_delta
+    real(wp) :: stress(6), delta(6), void_ratio, frame(6, 2), d_stress(6, 6), d_delta(6), by_volume, on_frame(2)
+    real(wp) :: variation(6), forth(6), back(6), eta(6), h, p, u(3)
+    integer :: v
 
     m = material_from_props(real(sands(sand)%props, wp))
     call random_number(u)
@@ -64,34 +68,65 @@ contains
     stress = deviatoric * p * stress / norm(stress) - p * unit_tensor
     void_ratio = (m%e_d0 + (0.05_wp + 0.9_wp * u(2)) * (m%e_i0 - m%e_d0)) * exp(-(3.0_wp * p / m%h_s)**m%n)
     call random_tensor(delta)
-    call random_tensor(d)
-    d = d / norm(d)
-    if ((ddot(delta, d) > 0.0_wp) .neqv. branch == branch_loading) delta = -delta
+    call random_tensor(frame(:, 1))
+    frame(:, 1) = frame(:, 1) / norm(frame(:, 1))
+    if ((ddot(delta, frame(:, 1)) > 0.0_wp) .neqv. branch == branch_loading) delta = -delta
     delta = (0.1_wp + 0.8_wp * u(3)) * m%R * delta / norm(delta)
+    frame(:, 2) = delta - ddot(delta, frame(:, 1)) * frame(:, 1)
+    frame(:, 2) = frame(:, 2) / norm(frame(:, 2))
     do v = 1, 6
       call random_tensor(d_stress(v, :))
       if (.not. deviatoric > 0.0_wp) d_stress(v, :) = d_stress(v, 1) * unit_tensor
-      call random_tensor(d_delta(v, :))
     end do
     d_stress = p * min(1.0_wp, max(deviatoric, 1.0e-10_wp)) * d_stress
-    d_delta = m%R * d_delta
-    call random_number(d_void_ratio)
+    call random_number(on_delta%factor)
+    call random_number(on_delta%plane)
+    on_delta = delta_influence_type(m%R * on_delta%factor, m%R * (on_delta%plane - 0.5_wp))
+    call random_number(by_volume)
 
-    call vary_rate_of_stress(m, stress, void_ratio, intergranular_direction(m, delta), d, branch, d_stress, d_delta, &
-                             d_void_ratio, rate, variation, status)
-    if (status /= status_ok) error stop 'a state is outside the domain'
     h = 1.0e-12_wp
     error = 0.0_wp
     do v = 1, 6
-      unit = 0.0_wp
-      unit(v) = 1.0_wp
-      forth = rate_at(m, branch, stress + h * d_stress(v, :), void_ratio + h * d_void_ratio(v), &
-                      delta + h * d_delta(v, :), d + h * unit)
-      back = rate_at(m, branch, stress - h * d_stress(v, :), void_ratio - h * d_void_ratio(v), &
-                     delta - h * d_delta(v, :), d - h * unit)
-      error = max(error, norm((forth - back) / (2.0_wp * h) - variation(v, :)) / norm(variation(v, :)))
+      eta = 0.0_wp
+      eta(v) = 1.0_wp
+      on_frame = [ddot(frame(:, 1), eta), ddot(frame(:, 2), eta)]
+      d_delta = on_delta%factor * eta + matmul(frame, matmul(on_delta%plane, on_frame))
+      variation = variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_volume, eta, d_stress(v, :))
+      forth = rate_at(m, branch, stress + h * d_stress(v, :), void_ratio + h * by_volume * trace(eta), &
+                      delta + h * d_delta, frame(:, 1) + h * eta)
+      back = rate_at(m, branch, stress - h * d_stress(v, :), void_ratio - h * by_volume * trace(eta), &
+                     delta - h * d_delta, frame(:, 1) - h * eta)
+      error = max(error, norm((forth - back) / (2.0_wp * h) - variation) / norm(variation))
     end do
   end function error_of_state
+
+  !> Derivative of the stress rate in the direction of one eta and the change of stress that goes with it, put together from
+  !> its factors.
+function variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_volume, eta, d_stress) result(variation)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: branch
+    real(wp), intent(in) :: stress(6), void_ratio, delta(6), frame(6, 2), by_volume, eta(6), d_stress(6)
+    type(delta_influence_type), intent(in) :: on_delta
+    real(wp) :: variation(6)
+    type(hypoplastic_type) :: h
+    type(intergranular_type) :: g
+    type(linear_rate_type) :: linear
+    type(operand_influence_type) :: on_operands
+    real(wp) :: x(6), weight, factor, part(6, 4)
+    integer :: status
+    call hypoplastic_tensors(m, stress, void_ratio, h, status)
+    if (status /= status_ok) error stop 'a state is outside the domain'
+    g = intergranular_direction(m, delta)
+    call operands(m, g, frame(:, 1), branch, x, weight)
+    linear = linear_rate(m, h, sensitivities(m, void_ratio, h), x, weight)
+ on_operands = operand_influence(m, g, ddot(g%direction, frame(:, 1)), ddot(g%direction, frame(:, 2)), branch, on_delta)
+    call direct_parts(m, h, linear, frame, [ddot(x, frame(:, 1)), ddot(x, frame(:, 2))], on_operands, by_volume, factor, part)
+    variation = factor * eta + dot_product(part(:, part_d), eta) * frame(:, 1) + &
+                dot_product(part(:, part_normal), eta) * frame(:, 2) + dot_product(part(:, part_that), eta) * h%that + &
+                dot_product(part(:, part_unit), eta) * unit_tensor + linear%diagonal * d_stress + &
+                dot_product(linear%on(:, 1), d_stress) * h%that + dot_product(linear%on(:, 2), d_stress) * x + &
+                dot_product(linear%on(:, 3), d_stress) * unit_tensor
+  end function variation_at
 
   !> The stress rate of a state inside the domain.
   function rate_at(m, branch, stress, void_ratio, delta, d) result(rate)
