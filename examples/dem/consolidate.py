@@ -11,8 +11,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 from common import options
-from common.folder import Folder, fail
-from common.sample import load_sample, read_manifest, sample_parameters, write_sample
+from common.folder import fail
+from common.sample import start_run, write_sample
 from common.simulation import Simulation, Stage
 
 
@@ -31,19 +31,13 @@ def parse() -> tuple[argparse.Namespace, dict]:
 def main() -> None:
     """Consolidate one sample."""
     opt, parameters = parse()
-    before = read_manifest(opt.sample)
-    parameters |= sample_parameters(opt.sample)
-    folder = Folder(opt.out, "consolidate", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    simulation = start_run("consolidate", opt, parameters)
+    if simulation is None:
         return
-    dimension = before["results"]["material"]["dimension"]
+    folder, dimension = simulation.folder, simulation.material.dimension
     if len(opt.stress) != dimension:
         fail(f"--stress has {len(opt.stress)} values, but the sample {opt.sample} has {dimension} dimensions")
-    simulation = load_sample(opt.sample, folder, opt.checkpoint)
-    start = [0.0] * 3
-    for i in range(dimension):
-        start[i] = 1e3 * before["results"]["stress_kPa"][i]
+    start = simulation.initial_stress
     goal = [-1e3 * s for s in opt.stress] + [None] * (3 - dimension)
     time_unit = simulation.material.inertial_time(1e3 * max(opt.stress))
 

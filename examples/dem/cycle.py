@@ -14,9 +14,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 from common import export, options
-from common.folder import Folder, fail
 from common.material import SERVO_PERIOD
-from common.sample import load_sample, read_manifest, sample_parameters
+from common.sample import start_run
 from common.simulation import Simulation, Stage
 from yade import O
 
@@ -58,17 +57,11 @@ def parse() -> tuple[argparse.Namespace, dict]:
 def main() -> None:
     """Cycle one sample."""
     opt, parameters = parse()
-    before = read_manifest(opt.sample)
-    parameters |= sample_parameters(opt.sample)
-    folder = Folder(opt.out, "cycle", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    simulation = start_run("cycle", opt, parameters, dimension=2)
+    if simulation is None:
         return
-    if before["results"]["material"]["dimension"] != 2:
-        fail(f"--sample {opt.sample}: expected a two-dimensional sample")
-    simulation = load_sample(opt.sample, folder, opt.checkpoint)
-    material, boundary = simulation.material, simulation.boundary
-    sig_x, sig_y = (1e3 * s for s in before["results"]["stress_kPa"][:2])
+    folder, material, boundary = simulation.folder, simulation.material, simulation.boundary
+    sig_x, sig_y = simulation.initial_stress[:2]
     s = -(sig_x + sig_y) / 2
     low = [sig_x, sig_y, None]
     high = [sig_x + opt.amplitude * s, sig_y - opt.amplitude * s, None]

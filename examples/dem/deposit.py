@@ -17,11 +17,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from common import cloud, clump, options
+from common import cloud, clump, options, preparation
 from common.boundary import WallBox
-from common.folder import Folder
 from common.material import Material, set_friction
-from common.sample import write_sample
 from common.simulation import Simulation, Stage
 from yade import NewtonIntegrator, O, Vector3, utils
 
@@ -32,24 +30,23 @@ TOP = 3
 
 def parse() -> tuple[argparse.Namespace, dict]:
     """The options of this script."""
-    top = options.parser(__doc__, particles=2000)
+    top = preparation.parser(
+        __doc__,
+        pressure=500.0,
+        friction=math.degrees(math.atan(0.5)),
+        diameter=5.0,
+        spread=2.0,
+        stiffness=2e5,
+        stiffness_ratio=1.0,
+        damping=0.7,
+        inertial_number=2e-3,
+        quiet=1e-3,
+    )
     top.add_argument("--method", choices=("gravity", "layers", "isotropic"), default="gravity")
     top.add_argument("--shape", choices=("disc", "clump"), default="clump", help="clump: two discs, aspect ratio 0.6")
-    top.add_argument("--pressure", type=float, default=500.0, help="final stress [kPa]")
-    top.add_argument("--friction", type=float, default=math.degrees(math.atan(0.5)), help="between particles [deg]")
-    top.add_argument(
-        "--preparation-friction", type=float, help="friction angle while preparing [deg]; default: the same"
-    )
     top.add_argument("--layer-void-ratio", type=float, default=0.25, help="to which a layer is pressed")
-    top.add_argument("--diameter", type=float, default=5.0, help="mean diameter of the disc of equal area [mm]")
-    top.add_argument("--spread", type=float, default=2.0, help="largest over smallest diameter")
-    top.add_argument("--stiffness", type=float, default=2e5, help="k_n/(1 m) [kPa]")
-    top.add_argument("--stiffness-ratio", type=float, default=1.0, help="k_s/k_n")
-    top.add_argument("--damping", type=float, default=0.7, help="numerical damping")
     top.add_argument("--aspect", type=float, default=1.0, help="final height over width, roughly")
     top.add_argument("--gravity-pressure", type=float, default=0.3, help="weight of the sample over pressure")
-    top.add_argument("--inertial-number", type=float, default=2e-3, help="sets the rate of compression")
-    top.add_argument("--quiet", type=float, default=1e-3, help="unbalanced force of the final state")
     return options.parse(top)
 
 
@@ -108,17 +105,13 @@ class Preparation:
         gravity = 0.0
         if self.opt.method == "gravity":
             gravity = self.opt.gravity_pressure * self.pressure * width / (self.solid * self.material.density)
-        O.engines = self.material.engines(gravity)
-        O.dt = self.material.time_step()
-        simulation.connect()
-        simulation.set_reference()
+        preparation.start_scene(simulation, gravity)
 
     # stages
 
     def begin(self, simulation: Simulation) -> None:
         """Friction while preparing."""
-        angle = self.opt.friction if self.opt.preparation_friction is None else self.opt.preparation_friction
-        set_friction(angle)
+        set_friction(preparation.preparation_friction(self.opt))
         simulation.servo.strain([0.0] * 3)
 
     def settled(self, simulation: Simulation) -> bool:
@@ -220,31 +213,15 @@ class Preparation:
 def main() -> None:
     """Prepare one sample."""
     opt, parameters = parse()
-    folder = Folder(opt.out, "deposit", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    simulation = preparation.start_run("deposit", opt, parameters, 2, WallBox())
+    if simulation is None:
         return
-    material = Material(
-        dimension=2,
-        diameter=opt.diameter * 1e-3,
-        spread=opt.spread,
-        stiffness=opt.stiffness * 1e3,
-        stiffness_ratio=opt.stiffness_ratio,
-        friction=opt.friction,
-        damping=opt.damping,
-    )
-    simulation = Simulation(folder, material, WallBox(), opt.checkpoint)
     simulation.servo.relaxation = 60 + 3 * math.sqrt(opt.particles)
-    preparation = Preparation(opt, material)
+    steps = Preparation(opt, simulation.material)
     if not simulation.resume():
-        preparation.build(simulation)
-    simulation.run(preparation.stages())
-    numbers = write_sample(simulation, f"{opt.method}, {opt.particles} {opt.shape}s, seed {opt.seed}")
-    folder.finish(numbers)
-    print(
-        f"e {numbers['void_ratio']:.4f}  CN {numbers['coordination_number']:.3f}  a_n {numbers['anisotropy']:.3f}"
-        f"  unbalanced {numbers['unbalanced_force']:.1e}  {folder.seconds:.0f} s"
-    )
+        steps.build(simulation)
+    simulation.run(steps.stages())
+    preparation.finish(simulation, f"{opt.method}, {opt.particles} {opt.shape}s, seed {opt.seed}")
 
 
 main()

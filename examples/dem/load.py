@@ -13,8 +13,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from common import export, options
-from common.folder import Folder
-from common.sample import load_sample, read_manifest, sample_parameters
+from common.sample import start_run
 from common.simulation import Simulation, Stage
 from yade import O
 
@@ -40,15 +39,12 @@ def parse() -> tuple[argparse.Namespace, dict]:
 def main() -> None:
     """Load one sample."""
     opt, parameters = parse()
-    parameters |= sample_parameters(opt.sample)
-    folder = Folder(opt.out, "load", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    simulation = start_run("load", opt, parameters)
+    if simulation is None:
         return
-    simulation = load_sample(opt.sample, folder, opt.checkpoint)
-    material, boundary = simulation.material, simulation.boundary
+    folder, material, boundary = simulation.folder, simulation.material, simulation.boundary
     axis = "xyz".index(opt.axis)
-    held = [1e3 * s for s in read_manifest(opt.sample)["results"]["stress_kPa"]]
+    held = simulation.initial_stress
     time_unit = material.inertial_time(max(abs(s) for s in held))
     slow, fast = opt.slow / time_unit, opt.inertial_number / time_unit
 

@@ -17,13 +17,10 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
-from common import cloud, export, options
+from common import cloud, export, options, preparation
 from common.boundary import PeriodicCell
-from common.folder import Folder
 from common.material import Material, set_friction
-from common.sample import write_sample
 from common.simulation import Simulation, Stage
-from yade import O
 
 
 def lateral_ratio(text: str) -> str:
@@ -35,21 +32,20 @@ def lateral_ratio(text: str) -> str:
 
 def parse() -> tuple[argparse.Namespace, dict]:
     """The options of this script."""
-    top = options.parser(__doc__, particles=2000)
+    top = preparation.parser(
+        __doc__,
+        pressure=100.0,
+        friction=30.0,
+        diameter=0.943,
+        spread=1.2,
+        stiffness=250e3,
+        stiffness_ratio=0.4,
+        damping=0.2,
+        inertial_number=8e-4,
+        quiet=1e-3,
+    )
     top.add_argument("--dimension", type=int, choices=(2, 3), default=3)
     top.add_argument("--lateral", type=lateral_ratio, default="iso", help="lateral over vertical strain rate, or iso")
-    top.add_argument("--pressure", type=float, default=100.0, help="final stress in all directions [kPa]")
-    top.add_argument("--friction", type=float, default=30.0, help="friction angle between particles [deg]")
-    top.add_argument(
-        "--preparation-friction", type=float, help="friction angle while preparing [deg]; default: the same"
-    )
-    top.add_argument("--diameter", type=float, default=0.943, help="median (3D) or mean (2D) diameter [mm]")
-    top.add_argument("--spread", type=float, default=1.2, help="3D: d60/d10 of a log-normal law; 2D: largest/smallest")
-    top.add_argument("--stiffness", type=float, default=250e3, help="3D: Young's modulus [kPa]; 2D: k_n/(1 m) [kPa]")
-    top.add_argument("--stiffness-ratio", type=float, default=0.4, help="k_s/k_n")
-    top.add_argument("--damping", type=float, default=0.2, help="numerical damping")
-    top.add_argument("--inertial-number", type=float, default=8e-4, help="sets the rate of compression")
-    top.add_argument("--quiet", type=float, default=1e-3, help="unbalanced force of the final state")
     return options.parse(top)
 
 
@@ -66,10 +62,7 @@ def build(simulation: Simulation, number: int, seed: int) -> None:
     material.add_to_scene()
     cloud.add_particles(material, diameters, positions)
     cloud.note_solid_volume(material, diameters)
-    O.engines = material.engines()
-    O.dt = material.time_step()
-    simulation.connect()
-    simulation.set_reference()
+    preparation.start_scene(simulation)
 
 
 def stages(opt: argparse.Namespace, material: Material) -> list[Stage]:
@@ -88,7 +81,7 @@ def stages(opt: argparse.Namespace, material: Material) -> list[Stage]:
             simulation.servo.strain([-limit * ratio if i != 1 else -limit for i in range(3)])
 
     def begin(simulation: Simulation) -> None:
-        set_friction(opt.friction if opt.preparation_friction is None else opt.preparation_friction)
+        set_friction(preparation.preparation_friction(opt))
         compress(simulation, 6 * rate, cloud=True)
 
     def touching(simulation: Simulation) -> bool:
@@ -145,29 +138,13 @@ def stages(opt: argparse.Namespace, material: Material) -> list[Stage]:
 def main() -> None:
     """Prepare one sample."""
     opt, parameters = parse()
-    folder = Folder(opt.out, "prepare", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    simulation = preparation.start_run("prepare", opt, parameters, opt.dimension, PeriodicCell(opt.dimension))
+    if simulation is None:
         return
-    material = Material(
-        dimension=opt.dimension,
-        diameter=opt.diameter * 1e-3,
-        spread=opt.spread,
-        stiffness=opt.stiffness * 1e3,
-        stiffness_ratio=opt.stiffness_ratio,
-        friction=opt.friction,
-        damping=opt.damping,
-    )
-    simulation = Simulation(folder, material, PeriodicCell(opt.dimension), opt.checkpoint)
     if not simulation.resume():
         build(simulation, opt.particles, opt.seed)
-    simulation.run(stages(opt, material))
-    numbers = write_sample(simulation, f"lateral {opt.lateral}, {opt.particles} particles, seed {opt.seed}")
-    folder.finish(numbers)
-    print(
-        f"e {numbers['void_ratio']:.4f}  CN {numbers['coordination_number']:.3f}  a {numbers['anisotropy']:.3f}"
-        f"  unbalanced {numbers['unbalanced_force']:.1e}  {folder.seconds:.0f} s"
-    )
+    simulation.run(stages(opt, simulation.material))
+    preparation.finish(simulation, f"lateral {opt.lateral}, {opt.particles} particles, seed {opt.seed}")
 
 
 main()

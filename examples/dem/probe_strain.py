@@ -17,9 +17,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 from common import export, options
-from common.folder import Folder, fail
+from common.boundary import PeriodicCell
 from common.probing import clear, run_probes, save_base
-from common.sample import load_sample, read_manifest, sample_parameters
+from common.sample import start_run
 from common.simulation import Simulation, Stage
 from yade import O, utils
 
@@ -59,18 +59,12 @@ def pairs(rows: np.ndarray) -> set:
 def main() -> None:
     """Probe one sample."""
     opt, parameters = parse()
-    before = read_manifest(opt.sample)
-    parameters |= sample_parameters(opt.sample)
-    folder = Folder(opt.out, "probe_strain", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    simulation = start_run("probe_strain", opt, parameters, boundary=PeriodicCell.kind)
+    if simulation is None:
         return
-    if before["results"]["boundary"] != "periodic cell":
-        fail(f"--sample {opt.sample}: strain probes need a sample in a periodic cell")
-    simulation = load_sample(opt.sample, folder, opt.checkpoint)
-    material, boundary = simulation.material, simulation.boundary
-    held = [1e3 * s for s in before["results"]["stress_kPa"]]
-    pressure = max(abs(s) for s in held)
+    folder, material, boundary = simulation.folder, simulation.material, simulation.boundary
+    held: list[float | None] = list(simulation.initial_stress)
+    pressure = max(abs(s) for s in simulation.initial_stress)
     time_unit = material.inertial_time(pressure)
     steps = int(opt.duration * time_unit / O.dt)
     if material.dimension == 2:

@@ -5,21 +5,24 @@
 The sample is sheared at constant p along a Lode angle (0: sigma_y is the largest compression, 60: sigma_x the smallest)
 until the unbalanced force exceeds --failure. It is brought to rest, and then probed by stress increments of equal size
 in directions spread evenly over the sphere of principal stresses: loaded, unloaded, and the irrecoverable strain noted.
-contacts.txt.gz holds the contacts of the failure state with their forces.
+failure_contacts.txt.gz holds the contacts of the failure state with their forces.
+
+Before the probes the stress can go on: by --tangent kPa at a right angle to the radial path in the deviatoric plane
+(points A+ and A- of paper 004), or --tangent-to the state of another run of this script (along the failure surface).
 """
 
 import argparse
 import math
 import os
 import sys
+from pathlib import Path
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 from common import export, options
-from common.folder import Folder, fail
 from common.probing import clear, run_probes, save_base
-from common.sample import load_sample, read_manifest, sample_parameters
+from common.sample import finished_manifest, start_run
 from common.simulation import Simulation, Stage
 from yade import O, utils
 
@@ -51,6 +54,9 @@ def parse() -> tuple[argparse.Namespace, dict]:
     top.add_argument("--duration", type=float, default=500.0, help="of shearing by q = p, in inertial times")
     top.add_argument("--probe-duration", type=float, default=4.0, help="of loading, in inertial times d sqrt(rho/p)")
     top.add_argument("--quiet", type=float, default=1e-5, help="unbalanced force before the probes")
+    after = top.add_mutually_exclusive_group()
+    after.add_argument("--tangent", type=float, help="increment before the probes, to larger Lode angles [kPa]")
+    after.add_argument("--tangent-to", metavar="FOLDER", help="run whose stress is gone to before the probes")
     return options.parse(top)
 
 
@@ -73,24 +79,21 @@ def sphere(number: int) -> np.ndarray:
 def main() -> None:
     """Shear and probe one sample."""
     opt, parameters = parse()
-    before = read_manifest(opt.sample)
-    parameters |= sample_parameters(opt.sample)
-    folder = Folder(opt.out, "probe_stress", parameters)
-    if folder.finished:
-        print(f"{opt.out}: finished before")
+    if opt.tangent_to is not None:
+        parameters["tangent_to"] = Path(opt.tangent_to).resolve().name
+    simulation = start_run("probe_stress", opt, parameters, dimension=3)
+    if simulation is None:
         return
-    if before["results"]["material"]["dimension"] != 3:
-        fail(f"--sample {opt.sample}: expected a three-dimensional sample")
-    simulation = load_sample(opt.sample, folder, opt.checkpoint)
-    material, boundary = simulation.material, simulation.boundary
-    start = np.array(before["results"]["stress_kPa"]) * 1e3
+    folder, material, boundary = simulation.folder, simulation.material, simulation.boundary
+    start = np.array(simulation.initial_stress)
     p = -float(np.mean(start))
     time_unit = material.inertial_time(p)
     direction = deviator(opt.lode)
+    speed = math.sqrt(2 / 3) * p / (opt.duration * time_unit)
 
     def shear(simulation: Simulation) -> None:
         simulation.servo.hold(list(start), 2e-3 / time_unit, with_integral=True)
-        simulation.servo.move(list(start + 3 * p * direction), math.sqrt(2 / 3) * p / (opt.duration * time_unit))
+        simulation.servo.move(list(start + 3 * p * direction), speed)
 
     def failed(simulation: Simulation) -> bool:
         strain = simulation.strain()
@@ -101,6 +104,25 @@ def main() -> None:
         simulation.notes["stress at failure [kPa]"] = [float(s) / 1e3 for s in simulation.servo.target]
         simulation.notes["strain at failure"] = [float(e) for e in simulation.strain()]
         retreat(simulation)
+
+    def turn(simulation: Simulation) -> None:
+        """Go on along the failure surface."""
+        here = np.array(simulation.servo.target)
+        if opt.tangent_to is not None:
+            notes = finished_manifest(opt.tangent_to, "--tangent-to")["results"]["notes"]
+            goal = np.array(notes["stress of the probes [kPa]"]) * 1e3
+        else:
+            goal = here + 1e3 * opt.tangent * deviator(opt.lode + 90.0)
+        simulation.notes["stress before the tangent [kPa]"] = [float(s) / 1e3 for s in here]
+        simulation.servo.hold([float(s) for s in here], 2e-3 / time_unit, with_integral=True)
+        simulation.servo.move([float(s) for s in goal], speed)
+
+    def turned(simulation: Simulation) -> bool:
+        return simulation.servo.arrived
+
+    def note_turned(simulation: Simulation) -> None:
+        simulation.notes["strain of retreat"] = [float(e) for e in simulation.strain()]
+        simulation.notes["stress of the probes [kPa]"] = [float(s) / 1e3 for s in simulation.servo.target]
 
     def retreat(simulation: Simulation) -> None:
         """Hold a little less deviator than before."""
@@ -121,8 +143,12 @@ def main() -> None:
 
     stages = [
         Stage("shear", shear, failed, 250, need=2, longest=1_000_000),
-        Stage("rest", note_failure, resting, 250, need=4, record_every=4, longest=200_000, end=save_base),
+        Stage("rest", note_failure, resting, 250, need=4, record_every=4, longest=200_000),
     ]
+    if opt.tangent is not None or opt.tangent_to is not None:
+        stages.append(Stage("tangent", turn, turned, 100))
+        stages.append(Stage("rest after it", note_turned, resting, 250, need=4, record_every=4, longest=200_000))
+    stages[-1].end = save_base
     if simulation.stage_index < len(stages):
         simulation.run(stages)
         simulation.notes["before"] = export.write_contacts(

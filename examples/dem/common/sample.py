@@ -1,5 +1,6 @@
 """Samples as files: the scene that later runs start from, and what they must know about it."""
 
+import argparse
 import json
 from pathlib import Path
 
@@ -30,20 +31,47 @@ def write_sample(simulation: Simulation, title: str) -> dict:
     return numbers | {"material": material.as_dict(), "boundary": boundary.kind, "notes": simulation.notes}
 
 
-def read_manifest(path: str) -> dict:
-    """The manifest of a finished run."""
+def finished_manifest(path: str, option: str) -> dict:
+    """The manifest of a finished run that an option names."""
     file = Path(path) / "manifest.json"
     if not file.exists():
-        fail(f"{file}: no such file; --sample expects the folder of a finished preparation")
+        fail(f"{file}: no such file; {option} expects the folder of a finished run")
     manifest = json.loads(file.read_text())
-    if not manifest["finished"] or not (Path(path) / SCENE).exists():
-        fail(f"{path}: this preparation has not finished; start it again to continue it")
+    if not manifest["finished"]:
+        fail(f"{path}: this run has not finished; start it again to continue it")
+    return manifest
+
+
+def read_manifest(path: str) -> dict:
+    """The manifest of a sample."""
+    manifest = finished_manifest(path, "--sample")
+    if not (Path(path) / SCENE).exists():
+        fail(f"{path}: no {SCENE}; --sample expects the folder of a preparation or consolidation")
     return manifest
 
 
 def sample_parameters(path: str) -> dict:
     """What the manifest of a run says of its sample: the name of the folder and the parameters of its preparation."""
     return {"sample": Path(path).resolve().name, "sample_parameters": read_manifest(path)["parameters"]}
+
+
+def start_run(program: str, opt: argparse.Namespace, parameters: dict, **needs: object) -> Simulation | None:
+    """The run of `program` from the sample of --sample in the folder of --out; None when it has finished before.
+
+    needs: numbers of the sample's manifest that this program depends on, as dimension=2 or boundary="periodic cell".
+    """
+    before = read_manifest(opt.sample)["results"]
+    folder = Folder(opt.out, program, parameters | sample_parameters(opt.sample))
+    if folder.finished:
+        print(f"{opt.out}: finished before")
+        return None
+    found = {"dimension": before["material"]["dimension"], "boundary": before["boundary"]}
+    for name, wanted in needs.items():
+        if found[name] != wanted:
+            fail(f"--sample {opt.sample}: its {name} is {found[name]}; {program} needs {wanted}")
+    simulation = load_sample(opt.sample, folder, opt.checkpoint)
+    simulation.initial_stress = [1e3 * s for s in before["stress_kPa"]]
+    return simulation
 
 
 def load_sample(path: str, folder: Folder, checkpoint_every: float) -> Simulation:

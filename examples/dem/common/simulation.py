@@ -56,13 +56,17 @@ class Simulation:
     """What all scripts drive: a folder, a material, a boundary, the servo, the history and notes for the manifest."""
 
     def __init__(self, folder: Folder, material: Material, boundary: Boundary, checkpoint_every: float) -> None:
-        """Begin with nothing; build a scene, load a sample or resume next."""
+        """Begin with nothing; build a scene, load a sample or resume next.
+
+        initial_stress [Pa]: of the sample that a run starts from, compression negative.
+        """
         self.folder, self.material, self.boundary = folder, material, boundary
         self.checkpoint_every = checkpoint_every
         self.servo = Servo()
         self.history: list[list[float]] = []
         self.notes: dict = {}
         self.reference = [1.0] * 3
+        self.initial_stress = [0.0] * 3
         self.stage_index = self.stage_start = self.counter = 0
         self.first_step = 0
         self._saved = self._reported = time.time()

@@ -11,6 +11,7 @@ PAPERS = {
     "003": "sample preparation and biaxial tests",
     "004": "stress probes at failure",
     "family": "beyond the papers: samples of different anisotropy",
+    "convergence": "beyond the papers: size of samples and rate of loading",
 }
 """What `python -m hypofab paper` compares."""
 

@@ -1,8 +1,9 @@
-"""Element tests of DEM samples: the four directional tests of paper 000 with delta from the samples' contacts."""
+"""Element tests beside DEM runs: any deck, and the directional tests of paper 000 with delta from contact lists."""
 
 import json
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from hypofab.papers.program import run, run_json
 from hypofab.papers.runs import DemRun
+from hypofab.probes import Envelope, read_probes
 from hypofab.results import TestResult, read_run
 
 SMALL = 1e-3
@@ -66,13 +68,40 @@ def deck(loadings: list[Loading], c: float, strain: float | None) -> dict:
     }
 
 
-def element_tests(loadings: list[Loading], c: float, strain: float | None = None) -> dict[str, TestResult]:
-    """Run the element tests; JSON is YAML, so that the deck needs no writer of its own."""
+@contextmanager
+def deck_file(deck: dict) -> Iterator[Path]:
+    """A deck as a file that is removed again; JSON is YAML, so that the deck needs no writer of its own."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "deck.yaml"
-        file.write_text(json.dumps(deck(loadings, c, strain), indent=1), encoding="utf-8")
-        run("run", file, "-o", Path(folder) / "out")
-        return {test.name: test for test in read_run(Path(folder) / "out").tests}
+        file.write_text(json.dumps(deck, indent=1), encoding="utf-8")
+        yield file
+
+
+def run_deck(deck: dict, *, may_stop: bool = False) -> dict[str, TestResult]:
+    """Run the tests of a deck. may_stop: a test may stop early, as at a peak."""
+    with deck_file(deck) as file:
+        run("run", file, "-o", file.parent / "out", accept=(0, 1) if may_stop else (0,))
+        return {test.name: test for test in read_run(file.parent / "out").tests}
+
+
+def run_envelopes(deck: dict) -> dict[str, Envelope]:
+    """Run the envelopes of a deck."""
+    with deck_file(deck) as file:
+        run("envelope", file, "-o", file.parent / "out")
+        return {envelope.name: envelope for envelope in read_probes(file.parent / "out")}
+
+
+def fabric_in_space(xx: float, yy: float, xy: float) -> list[float]:
+    """N of space whose part in the plane xy is that of a two-dimensional sample and whose rest is isotropic.
+
+    xx, yy, xy: N of the plane, trace 1. N of space is 2/3 of it and 1/3 z z: isotropic where the sample is.
+    """
+    return [2 / 3 * xx, 2 / 3 * yy, 1 / 3, 2 / 3 * xy, 0, 0]
+
+
+def element_tests(loadings: list[Loading], c: float, strain: float | None = None) -> dict[str, TestResult]:
+    """Run the directional tests."""
+    return run_deck(deck(loadings, c, strain))
 
 
 def secants(tests: Mapping[str, TestResult]) -> dict[str, float]:
@@ -94,9 +123,7 @@ class Fit:
 
 def fit_c(loadings: list[Loading], measured: Mapping[str, float]) -> Fit:
     """The c that fits the ratios of the measured stiffnesses [kPa] best."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "deck.yaml"
-        file.write_text(json.dumps(deck(loadings, 0.05, None), indent=1), encoding="utf-8")
+    with deck_file(deck(loadings, 0.05, None)) as file:
         targets = ",".join(f"{name}={value:.9g}" for name, value in measured.items())
         result = run_json("fit-c", file, "--target", targets)
     return Fit(result["c"], result["lower"], result["upper"], result["misfit"])

@@ -3,19 +3,19 @@
 Runs: every run folder of probe_strain.py that is found, one per sample.
 """
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from hypofab.figures import line_style
-from hypofab.papers import draw
+from hypofab.papers import draw, figures_001
+from hypofab.papers.element import fabric_in_space, run_envelopes
 from hypofab.papers.program import run_json
 from hypofab.papers.runs import DemRun, read_dem, read_table
 from hypofab.results import Array, ResultError
 
-MECHANISMS = ("loss", "gain", "reorientation")
+PRESSURE, VOID_RATIO = 100.0, 0.60
+"""Of the sand in the element tests [kPa, -]."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,19 @@ class Fan:
         entry = self.changes["response"][mechanism][name]
         return entry["value"], entry["error"]
 
+    def law(self, mechanism: str, which: str, alpha: Array) -> Array:
+        """The fitted dZ* or dA* (Eq. 15 with the signs that follow from Eqs. 10 and 11)."""
+        b, c, d, e, g = (self.coefficient(mechanism, name)[0] for name in "BCDEG")
+        cos, sin = np.cos(np.radians(alpha)), np.sin(np.radians(alpha))
+        if which == "dZ":
+            return 2 * b + g + (2 * c + e) * (cos + sin) + 2 * (d + g) * cos * sin
+        return e * (sin - cos) + g * (sin**2 - cos**2)
+
+    @property
+    def linear(self) -> tuple[Array, float]:
+        """linear_map of the stress."""
+        return linear_map(self.alpha, self.strain, self.stress)
+
 
 def read_fan(path: Path) -> Fan:
     """Probes of one run folder, compared by `hypofab changes`."""
@@ -69,134 +82,70 @@ def read_fan(path: Path) -> Fan:
     return Fan(run, alpha, strain, stress, changes)
 
 
-def linear_stiffness(fan: Fan) -> tuple[Array, float]:
-    """The linear map from strain to stress of least squares [kPa], and the error's share of the response."""
-    radians = np.radians(fan.alpha)
-    strain = np.column_stack([np.cos(radians), np.sin(radians)]) * fan.strain[:, None]
-    matrix, *_ = np.linalg.lstsq(strain, fan.stress, rcond=None)
-    error = np.linalg.norm(strain @ matrix - fan.stress) / np.linalg.norm(fan.stress)
+def linear_map(alpha: Array, strain: Array, stress: Array) -> tuple[Array, float]:
+    """The linear map from strain to stress of least squares [kPa], and the error's share of the response.
+
+    alpha: directions [deg]; strain: norm of each probe; stress: increments (probes, 2) [kPa].
+    """
+    radians = np.radians(alpha)
+    probes = np.column_stack([np.cos(radians), np.sin(radians)]) * np.reshape(strain, (-1, 1))
+    matrix, *_ = np.linalg.lstsq(probes, stress, rcond=None)
+    error = np.linalg.norm(probes @ matrix - stress) / np.linalg.norm(stress)
     return matrix.T, float(error)
 
 
-def law(fan: Fan, mechanism: str, which: str, alpha: Array) -> Array:
-    """The fitted dZ* or dA* (Eq. 15 with the signs that follow from Eqs. 10 and 11)."""
-    b, c, d, e, g = (fan.coefficient(mechanism, name)[0] for name in "BCDEG")
-    cos, sin = np.cos(np.radians(alpha)), np.sin(np.radians(alpha))
-    if which == "dZ":
-        return 2 * b + g + (2 * c + e) * (cos + sin) + 2 * (d + g) * cos * sin
-    return e * (sin - cos) + g * (sin**2 - cos**2)
+@dataclass(frozen=True)
+class ElementFan:
+    """Strain probes of an element test."""
+
+    title: str
+    alpha: Array
+    size: float
+    stress: Array
+    """Stress increments along x and y [kPa], shape (probes, 2)."""
+
+    @property
+    def linear(self) -> tuple[Array, float]:
+        """linear_map of the stress."""
+        return linear_map(self.alpha, np.full(len(self.alpha), self.size), self.stress)
 
 
-def responses(fans: list[Fan], path: Path) -> None:
-    """Figures 2 and 3: probes, stress responses with the linear map's ellipse, responses of the fabric."""
-    with draw.panels(path, 2) as (stress, fabric):
-        for index, fan in enumerate(fans):
-            style = line_style(index)
-            stiffness = fan.run.results["material"]["stiffness"] / 1e3
-            matrix, _ = linear_stiffness(fan)
-            angle = np.linspace(0, 2 * np.pi, 181)
-            ellipse = matrix @ np.stack([np.cos(angle), np.sin(angle)]) * fan.strain.mean() / stiffness
-            stress.plot(*ellipse, **(style | {"linewidth": 1.0}))
-            stress.plot(
-                *(fan.stress.T / stiffness),
-                "o",
-                markersize=3.5,
-                color=style["color"],
-                label=f"Z = {fan.coordination:.2f}",
-            )
-            change = np.array([snapshot["change"][:2] for snapshot in fan.changes["snapshots"]])
-            closed = [*range(len(change)), 0]
-            fabric.plot(*change[closed].T, marker="o", markersize=3, **style)
-        stress.set(xlabel=r"$\Delta\sigma_{xx}/k_n$", ylabel=r"$\Delta\sigma_{yy}/k_n$", title="stress; lines: linear")
-        fabric.set(xlabel=r"$\Delta F_{xx}$", ylabel=r"$\Delta F_{yy}$", title="fabric")
-        for axes in (stress, fabric):
-            axes.set_aspect("equal", adjustable="datalim")
-        stress.legend()
-
-
-def rates(fans: list[Fan], path: Path) -> None:
-    """Figures 5 and 6: rates of change over the direction of the probe, with the fitted law."""
-    fine = np.linspace(0, 360, 181)
-    with draw.panels(path, 3, rows=2, size=(85, 65)) as axes:
-        for column, mechanism in enumerate(MECHANISMS):
-            for row, which in enumerate(("dZ", "dA")):
-                panel = axes[3 * row + column]
-                if (mechanism, which) == ("reorientation", "dZ"):
-                    panel.set_axis_off()  # zero by definition
-                    continue
-                for index, fan in enumerate(fans):
-                    style = line_style(index)
-                    label = f"Z = {fan.coordination:.2f}"
-                    panel.plot(
-                        fan.alpha, fan.rate(mechanism, which), "o", markersize=3, color=style["color"], label=label
-                    )
-                    panel.plot(fine, law(fan, mechanism, which, fine), **(style | {"linewidth": 1.0}))
-                name = {"dZ": r"$\Delta Z^*$", "dA": r"$\Delta A^*$"}[which]
-                panel.set(xlim=(0, 360), xticks=range(0, 361, 90), title=f"{name}, {mechanism}")
-                if row == 1:
-                    panel.set_xlabel(r"direction $\alpha$ [deg]")
-                low, high = {"gain": (18.4, 71.6), "loss": (198.4, 251.6)}.get(mechanism, (0, 0))
-                panel.axvspan(low, high, color="0.9")
-        axes[0].legend()
-
-
-def roses(fan: Fan, path: Path) -> None:
-    """Figure 4: orientations of lost and gained contacts for five directions, with second-order harmonics (Eq. 5)."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    from hypofab.figures import INCH, STYLE
-
-    shown = [45, 90, 135, 180, 225]
-    with rc_context(STYLE):
-        figure = Figure(figsize=(55 * len(shown) / INCH, 110 / INCH), layout="constrained")
-        for column, angle in enumerate(shown):
-            snapshot = fan.changes["snapshots"][int(np.argmin(np.abs(fan.alpha - angle)))]
-            for row, mechanism in enumerate(("loss", "gain")):
-                axes = figure.add_subplot(2, len(shown), row * len(shown) + column + 1, projection="polar")
-                rose = snapshot[mechanism]["rose"]
-                count = np.array(rose["count"], dtype=float)
-                pairs = count.reshape(-1, 4).sum(axis=1)  # bins of 30 degrees: contacts are few
-                width = math.pi / len(pairs)
-                middle = (np.arange(len(pairs)) + 0.5) * width
-                for turn in (0.0, math.pi):
-                    axes.bar(middle + turn, pairs, width=width, color="#7FBFE8", edgecolor="#00508C", linewidth=0.4)
-                theta = np.linspace(0, 2 * np.pi, 181)
-                if rose["contacts"] > 0:
-                    law = 1 + rose["anisotropy"] * np.cos(2 * (theta - math.radians(rose["direction"])))
-                    axes.plot(theta, np.maximum(0, pairs.mean() * law), color="#D55E00", linewidth=1.2)
-                axes.set_title(rf"{mechanism}, $\alpha$ = {angle}$^\circ$: {rose['contacts']}", fontsize=8)
-                axes.set_xticklabels([])
-                axes.tick_params(labelsize=6)
-        figure.savefig(path, dpi=110)
-
-
-def trends(fans: list[Fan], path: Path) -> None:
-    """Figures 7 and 8: characteristic rates and a1 to a5 over Z, with standard errors."""
-    z = [fan.coordination for fan in fans]
-    with draw.panels(path, 3) as (loss, gain, total):
-        for axes, mechanism in ((loss, "loss"), (gain, "gain")):
-            for index, name in enumerate(("dZ_extension", "dZ_shear", "dZ_compression", "E", "G")):
-                values = [fan.coefficient(mechanism, name) for fan in fans]
-                style = {key: line_style(index)[key] for key in ("color", "linestyle")}
-                label = name.replace("dZ_", "dZ*, ")
-                axes.errorbar(
-                    z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=label, **style
-                )
-            axes.set_title(mechanism)
-        for index in range(5):
-            values = [
-                (fan.changes["response"]["a"][index]["value"], fan.changes["response"]["a"][index]["error"])
-                for fan in fans
-            ]
-            style = {key: line_style(index)[key] for key in ("color", "linestyle")}
-            total.errorbar(
-                z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=f"a{index + 1}", **style
-            )
-        total.set_title("total, Eq. 19")
-        for axes in (loss, gain, total):
-            axes.set_xlabel("Z before the probes")
-            axes.legend(fontsize=7)
+def element_fans(fan: Fan) -> list[ElementFan]:
+    """The same probes of a sand with delta from the sample's fabric, smaller ones, and the same without memory."""
+    xx, yy, _, xy, _, _ = np.array(fan.changes["fabric_before"]) / fan.coordination
+    fabric = fabric_in_space(xx, yy, xy)
+    size = float(fan.strain.mean())
+    base = {"material": "sand", "p": PRESSURE, "void_ratio": VOID_RATIO}
+    variants = [
+        ("fabric", {"fabric": fabric}, size, "delta from fabric"),
+        ("zero", {"zero": True}, size, "delta = 0"),
+        ("small", {"zero": True}, size / 20, "delta = 0, a twentieth of the size"),
+    ]
+    plane = {"first": [1, 0, 0, 0, 0, 0], "second": [0, 1, 0, 0, 0, 0]}
+    envelopes = [
+        {
+            "name": name,
+            "plane": plane,
+            "probes": len(fan.alpha),
+            "size": length,
+            "series": [{"name": name, "state": name}],
+        }
+        for name, _, length, _ in variants
+    ]
+    found = run_envelopes(
+        {
+            "unit": "kPa",
+            "materials": [{"name": "sand", "sand": "paper000"}],
+            "states": [base | {"name": name, "delta": delta} for name, delta, _, _ in variants],
+            "envelopes": envelopes,
+        }
+    )
+    fans = []
+    for name, _, length, title in variants:
+        series = found[name].series[0]
+        alpha = np.degrees(np.arctan2(series.direction[:, 1], series.direction[:, 0])) % 360
+        fans.append(ElementFan(title, alpha, length, length * series.response[:, :2]))
+    return fans
 
 
 def share(counts: Array, zone: Array) -> str:
@@ -204,11 +153,24 @@ def share(counts: Array, zone: Array) -> str:
     return f"{counts[zone].mean():.1f} of {counts.max():.0f}" if zone.any() else "no probe there"
 
 
+def element_table(fans: list[Fan], element: list[ElementFan]) -> str:
+    """The linear map from strain to stress and its error, DEM and element tests."""
+    rows = []
+    for name, (matrix, error) in [(f"DEM, {fan.run.name}", fan.linear) for fan in fans] + [
+        (f"element test, {probes.title}", probes.linear) for probes in element
+    ]:
+        isotropic = (matrix[0, 0] + matrix[1, 1] + matrix[0, 1] + matrix[1, 0]) / 2
+        shear = (matrix[0, 0] + matrix[1, 1] - matrix[0, 1] - matrix[1, 0]) / 2
+        rows.append([name, f"{isotropic:.0f}", f"{shear:.0f}", f"{isotropic / shear:.2f}", f"{100 * error:.2f} %"])
+    head = ["probes", "isotropic stiffness [kPa]", "deviatoric stiffness [kPa]", "their ratio", "error of the map"]
+    return draw.table(head, rows)
+
+
 def summary(fans: list[Fan]) -> str:
     """One row per sample, and the three conditions of incremental linearity."""
     rows, conditions = [], []
     for fan in fans:
-        _, error = linear_stiffness(fan)
+        _, error = fan.linear
         table = read_table(fan.run.path / "probes.txt.gz")
         hold = table["alpha"] < 0
         in_gain = (fan.alpha > 18.4) & (fan.alpha < 71.6)
@@ -256,8 +218,9 @@ def compare(runs: Path, out: Path) -> str:
     if not folders:
         raise ResultError(f"{runs}: no run folder of probe_strain.py; examples/dem/README.md says how to make them")
     fans = sorted((read_fan(folder) for folder in folders), key=lambda fan: -fan.coordination)
-    responses(fans, out / "001_responses.png")
-    roses(fans[0], out / "001_roses.png")
-    rates(fans, out / "001_rates.png")
-    trends(fans, out / "001_trends.png")
-    return summary(fans)
+    element = element_fans(fans[0])
+    figures_001.responses(fans, element, out / "001_responses.png")
+    figures_001.roses(fans[0], out / "001_roses.png")
+    figures_001.rates(fans, out / "001_rates.png")
+    figures_001.trends(fans, out / "001_trends.png")
+    return summary(fans) + "\n\n" + element_table(fans, element)

@@ -5,8 +5,6 @@ folder of cycle.py that is found. The element tests run the same stress cycles i
 which is not the material of the discs: what is compared is whether strain accumulates or dies out.
 """
 
-import json
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,9 +12,9 @@ import numpy as np
 
 from hypofab.figures import line_style
 from hypofab.papers import draw
-from hypofab.papers.program import run
+from hypofab.papers.element import run_deck
 from hypofab.papers.runs import DemRun, read_dem, read_table
-from hypofab.results import Array, ResultError, read_run
+from hypofab.results import Array, ResultError
 
 CONSOLIDATIONS = {
     "c_dep": "deposited, 50 kPa",
@@ -87,13 +85,9 @@ def element_cycles(tests: dict[str, Cycles]) -> dict[str, tuple[Array, Array]]:
         "states": list(states.values()),
         "tests": steps,
     }
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "deck.yaml"
-        file.write_text(json.dumps(deck), encoding="utf-8")
-        run("run", file, "-o", Path(folder) / "out", accept=(0, 1))  # 1: a test stopped early
-        results = read_run(Path(folder) / "out").tests
+    results = run_deck(deck, may_stop=True)
     # Rows: the start, then one per reversal; every second is the end of a cycle.
-    return {test.name: (np.arange(len(test.strain[::2])), -test.strain[::2, 1]) for test in results}
+    return {name: (np.arange(len(test.strain[::2])), -test.strain[::2, 1]) for name, test in results.items()}
 
 
 def consolidation(runs: Path) -> tuple[str, list[float]]:

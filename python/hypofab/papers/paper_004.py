@@ -1,6 +1,7 @@
-"""Paper 004: plastic flow at failure states on radial paths, by stress probes of three-dimensional samples.
+"""Paper 004: plastic flow at failure states, by stress probes of three-dimensional samples, and in element tests.
 
-Runs: every run folder of probe_stress.py that is found, one per Lode angle.
+Runs: `lode0`, `lode20`, ... of probe_stress.py, one per Lode angle; optional are `A_plus` and `A_minus` (a tangent path
+of some kPa from lode0 before the probes) and `tangent20` (a path along the failure surface to the stress of lode20).
 """
 
 from dataclasses import dataclass
@@ -8,11 +9,17 @@ from pathlib import Path
 
 import numpy as np
 
-from hypofab.figures import line_style
-from hypofab.papers import draw
+from hypofab.papers import draw, figures_004
+from hypofab.papers.element import run_deck, run_envelopes
+from hypofab.papers.flow import Flow, amount_of, flow_of, octahedral, octahedral_unit
 from hypofab.papers.program import run_json
 from hypofab.papers.runs import DemRun, read_dem, read_table
 from hypofab.results import Array, ResultError
+
+PRESSURE, VOID_RATIO = 100.0, 0.70
+"""Of the sand in the element tests [kPa, -]."""
+BEFORE_PEAK = 0.97
+"""Share of the largest q of the radial path at which element tests are probed."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +42,11 @@ class Failure:
         return float(self.run.parameters["lode"])
 
     @property
+    def tangent(self) -> bool:
+        """Whether a tangent path came before the probes."""
+        return any(self.run.parameters.get(key) is not None for key in ("tangent", "tangent_to"))
+
+    @property
     def stress(self) -> Array:
         """Stress of the probes [kPa]."""
         return np.array(self.run.results["notes"]["stress of the probes [kPa]"])
@@ -45,15 +57,14 @@ class Failure:
         return np.array(self.run.results["notes"]["stress at failure [kPa]"])
 
     @property
-    def flow(self) -> tuple[Array, Array]:
-        """Principal directions of the plastic strains (rows) and the share of each in their squares.
+    def flow(self) -> Flow:
+        """Direction of the plastic strains."""
+        return flow_of(self.plastic, self.stress)
 
-        The first points so that the plastic strain grows along the largest compression.
-        """
-        _, values, axes = np.linalg.svd(self.plastic, full_matrices=False)
-        deviator = self.stress - self.stress.mean()
-        axes[0] *= np.sign(axes[0] @ deviator)
-        return axes, values**2 / np.sum(values**2)
+    @property
+    def amount(self) -> tuple[Array, Array]:
+        """Cosine of each increment with the flow direction, and the plastic strain along it per kPa [1e-6]."""
+        return amount_of(self.increments, self.plastic, self.flow)
 
     def fabric(self, sliding: bool = False) -> Array:
         """Diagonal of N of all contacts or of sliding ones; NaN when none slides."""
@@ -83,70 +94,75 @@ def read_failure(path: Path) -> Failure:
     return Failure(run, vectors("dsig")[real], vectors("eps")[real], plastic, described)
 
 
-def octahedral(vectors: Array) -> tuple[Array, Array]:
-    """Coordinates of vectors (x, y, z) in the deviatoric plane: y upwards, x to the lower left, z to the right."""
-    x, y, z = np.moveaxis(np.asarray(vectors), -1, 0)
-    return (z - x) / np.sqrt(2), (2 * y - x - z) / np.sqrt(6)
+@dataclass(frozen=True)
+class ElementProbes:
+    """The same probes in an element test."""
+
+    stress: Array
+    """State of the probes [kPa], tension positive, shape (3,)."""
+    increments: Array
+    plastic: Array
+
+    @property
+    def flow(self) -> Flow:
+        """Direction of the plastic strains."""
+        return flow_of(self.plastic, self.stress)
 
 
-def figure(states: list[Failure], path: Path) -> None:
-    """Figures 1, 2 and 4: failure points and plastic flow in the deviatoric plane, stress, fabric, sliding contacts."""
-    with draw.panels(path, 3, size=(95, 90)) as (plane, size, fabric):
-        for index, state in enumerate(states):
-            style = line_style(index)
-            color = style["color"]
-            label = rf"$\theta$ = {state.lode:.0f}$^\circ$"
-            place = np.array(octahedral(-state.stress))
-            plane.plot(*place, "o", color=color, label=label)
-            steps = np.array(octahedral(-state.plastic)).T
-            steps *= 25 / np.max(np.linalg.norm(steps, axis=1))
-            for step in steps:
-                plane.plot(*np.stack([place, place + step]).T, color=color, linewidth=0.5)
-            axes, _ = state.flow
-            along = state.increments @ axes[0] / np.linalg.norm(state.increments, axis=1)
-            amount = state.plastic @ axes[0]
-            size.plot(along, 1e6 * amount / np.linalg.norm(state.increments, axis=1), "o", markersize=3, color=color)
-            all_contacts, slid = state.fabric() - 1 / 3, state.fabric(sliding=True) - 1 / 3
-            stress = state.stress / state.stress.sum() - 1 / 3
-            for values, marker in ((stress, "o"), (all_contacts, "s"), (slid, "^")):
-                fabric.plot(
-                    *(np.array(octahedral(values))), marker, color=color, fillstyle="none" if marker != "o" else "full"
-                )
-        plane.plot(0, 0, "+", color="black")
-        plane.set(title="failure and plastic flow, deviatoric plane", xlabel="kPa", ylabel="kPa (y upwards)")
-        plane.set_aspect("equal", adjustable="datalim")
-        plane.legend()
-        size.set(
-            title="amount of flow",
-            xlabel="cosine of increment and flow direction",
-            ylabel="plastic strain along it per kPa [1e-6]",
+def element_probes(states: dict[str, Failure]) -> dict[str, ElementProbes]:
+    """Radial paths to 97 % of the peak, tangent paths as in the DEM runs, and stress probes with unloading."""
+    sand = [{"name": "sand", "sand": "paper000"}]
+    start = {"name": "compressed", "material": "sand", "p": PRESSURE, "void_ratio": VOID_RATIO}
+    start["delta"] = {"mobilised": [1, 1, 1, 0, 0, 0]}  # isotropic compression before
+    head = {"unit": "kPa", "sign": "compression_positive", "materials": sand, "states": [start]}
+
+    def radial(lode: float, until: dict) -> dict:
+        # y is compressed most, x least, as in the DEM runs.
+        return {"preset": "radial_constant_p", "axis": "y", "lode": lode, "until": until, "rows": 400}
+
+    lodes = sorted({state.lode for state in states.values()} | {0.0, 20.0})
+    far = {"quantity": "eps_q", "value": 0.1}
+    peaks = run_deck(
+        head
+        | {
+            "tests": [
+                {"name": f"lode{lode:.0f}", "state": "compressed", "steps": [radial(lode, far)]} for lode in lodes
+            ]
+        },
+        may_stop=True,
+    )
+    tests = []
+    ends = {}
+    for lode in lodes:
+        peak = peaks[f"lode{lode:.0f}"]
+        reached = BEFORE_PEAK * float(peak.q.max())
+        row = int(np.argmax(peak.q >= reached))
+        ends[lode] = peak.stress[row, :3]
+        steps = [radial(lode, {"quantity": "q", "value": reached})]
+        tests.append({"name": f"lode{lode:.0f}", "state": "compressed", "steps": steps})
+    for name, state in states.items():
+        if state.run.parameters.get("tangent") is not None:
+            path = -state.run.parameters["tangent"] * octahedral_unit(90.0)
+        elif state.run.parameters.get("tangent_to") is not None:
+            path = ends[20.0] - ends[0.0]
+        else:
+            continue
+        axis = int(np.argmax(np.abs(path)))
+        until = {"quantity": f"sig_{'xyz'[axis] * 2}", "value": float(ends[0.0][axis] + path[axis])}
+        tangent = {"preset": "proportional_stress", "direction": [*map(float, path), 0, 0, 0], "until": until}
+        steps = [*tests[lodes.index(0.0)]["steps"], tangent]
+        tests.append({"name": name, "state": "compressed", "steps": steps})
+    size = float(np.linalg.norm(next(iter(states.values())).increments[0]))
+    envelope = {"name": "probes", "principal": "xyz", "impose": "stress", "size": size, "unload": True, "probes": 112}
+    envelope["series"] = [{"name": test["name"], "after": test["name"]} for test in tests]
+    found = run_envelopes(head | {"tests": tests, "envelopes": [envelope]})["probes"].series
+    return {
+        series.name: ElementProbes(
+            -series.stress[:3], -size * series.direction[:, :3], -size * series.irrecoverable[:, :3]
         )
-        fabric.plot(0, 0, "+", color="black")
-        fabric.set(title="stress (dots), N, sliding N (triangles)")
-        fabric.set_aspect("equal", adjustable="datalim")
-
-
-def ellipsoids(states: list[Failure], path: Path) -> None:
-    """Figure 3: the fabric of all contacts as a surface 1 + F:nn."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    from hypofab.figures import INCH, STYLE
-
-    u, v = np.meshgrid(np.linspace(0, np.pi, 31), np.linspace(0, 2 * np.pi, 61))
-    n = np.stack([np.sin(u) * np.cos(v), np.cos(u), np.sin(u) * np.sin(v)])
-    with rc_context(STYLE):
-        drawing = Figure(figsize=(70 * len(states) / INCH, 75 / INCH), layout="constrained")
-        for index, state in enumerate(states):
-            deviator = 7.5 * (state.fabric() - 1 / 3)
-            x, y, z = n * (1 + np.einsum("i...,i,i...->...", n, deviator, n))
-            axes = drawing.add_subplot(1, len(states), index + 1, projection="3d")
-            axes.plot_surface(x, z, y, color="#7FBFE8", edgecolor="#00508C", linewidth=0.2)
-            axes.set(xlim=(-1.6, 1.6), ylim=(-1.6, 1.6), zlim=(-1.6, 1.6), xlabel="x", ylabel="z", zlabel="y")
-            axes.set_title(rf"$\theta$ = {state.lode:.0f}$^\circ$")
-            axes.set_box_aspect((1, 1, 1))
-            axes.tick_params(labelsize=6)
-        drawing.savefig(path, dpi=110)
+        for series in found
+        if series.irrecoverable is not None
+    }
 
 
 def numbers(values: Array, digits: int = 2) -> str:
@@ -154,45 +170,52 @@ def numbers(values: Array, digits: int = 2) -> str:
     return " ".join(f"{value:.{digits}f}" for value in values)
 
 
-def table(states: list[Failure]) -> str:
-    """One row per failure state."""
+def table(states: dict[str, Failure], element: dict[str, ElementProbes]) -> str:
+    """One row per state."""
     rows = []
-    for state in states:
-        axes, shares = state.flow
-        stress = state.failure
-        deviator = stress - stress.mean()
-        q = np.sqrt(1.5 * np.sum(deviator**2))
-        flow = axes[0] - axes[0].mean()
-        cosine = flow @ deviator / np.linalg.norm(flow) / np.linalg.norm(deviator)
+    for name, state in states.items():
+        flow, stress = state.flow, state.failure
+        q = np.sqrt(1.5 * np.sum((stress - stress.mean()) ** 2))
+        ratio = np.linalg.norm(state.plastic, axis=1).max() / np.linalg.norm(state.loaded, axis=1).max()
         rows.append(
             [
-                f"{state.lode:.0f}",
+                name,
                 f"{q / -stress.mean():.2f}",
                 numbers(-state.stress, 1),
                 numbers(state.fabric(), 3),
                 numbers(state.fabric(sliding=True), 3),
-                numbers(axes[0]),
-                f"{100 * shares[0]:.1f}",
-                f"{np.degrees(np.arccos(np.clip(cosine, -1, 1))):.0f}",
-                f"{np.linalg.norm(state.plastic, axis=1).max() / np.linalg.norm(state.loaded, axis=1).max():.2f}",
+                numbers(flow.direction),
+                f"{100 * flow.share:.1f}",
+                f"{np.degrees(np.arctan2(*octahedral(-state.stress))):.0f}",
+                f"{flow.angle:.0f}",
+                f"{ratio:.2f}",
+                numbers(element[name].flow.direction),
+                f"{100 * element[name].flow.share:.1f}",
+                f"{element[name].flow.angle:.0f}",
             ]
         )
-    head = ["Lode angle", "q/p at failure", "stress of the probes x y z [kPa]", "N xx yy zz", "N of sliding contacts"]
-    head += [
-        "flow direction x y z",
-        "its share [%]",
-        "angle of flow and stress deviator [deg]",
-        "plastic over total, largest",
-    ]
-    return draw.table(head, rows)
+    head = ["state", "q/p at failure", "stress of the probes x y z [kPa]", "N xx yy zz", "N of sliding contacts"]
+    head += ["flow x y z", "its share [%]", "Lode angle of stress", "of flow", "plastic over total, largest"]
+    return draw.table([*head, "flow x y z, element", "its share [%]", "Lode angle of flow, element"], rows)
+
+
+def read_states(runs: Path) -> dict[str, Failure]:
+    """All states that are found: radial paths by their Lode angles, then the tangent ones."""
+    folders = sorted(path.parent for path in runs.glob("*/probes.txt.gz"))
+    states = [read_failure(folder) for folder in folders]
+    if not any(state.lode == 0 for state in states):
+        raise ResultError(f"{runs}: no run lode0 of probe_stress.py; examples/dem/README.md says how to make it")
+    states.sort(key=lambda state: (state.tangent, state.lode))
+    return {state.run.name: state for state in states}
 
 
 def compare(runs: Path, out: Path) -> str:
     """Figures 1 to 4 in kind."""
-    folders = sorted(path.parent for path in runs.glob("*/probes.txt.gz"))
-    if not folders:
-        raise ResultError(f"{runs}: no run folder of probe_stress.py; examples/dem/README.md says how to make them")
-    states = sorted((read_failure(folder) for folder in folders), key=lambda state: state.lode)
-    figure(states, out / "004_flow.png")
-    ellipsoids(states, out / "004_fabric.png")
-    return table(states)
+    states = read_states(runs)
+    element = element_probes(states)
+    figures_004.envelopes(states, element, out / "004_envelopes.png")
+    figures_004.principal(states, element, out / "004_principal.png")
+    figures_004.ellipsoids(states, out / "004_fabric.png")
+    if "A_plus" in states and "A_minus" in states:
+        figures_004.tangents(states, element, out / "004_tangent.png")
+    return table(states, element)

@@ -1,0 +1,136 @@
+"""Figures of paper 001: stress and fabric in strain probes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from hypofab.figures import INCH, STYLE, line_style
+from hypofab.papers import draw
+from hypofab.results import Array
+
+if TYPE_CHECKING:
+    from hypofab.papers.paper_001 import ElementFan, Fan
+
+MECHANISMS = ("loss", "gain", "reorientation")
+
+
+def stress_panel(axes: Axes, index: int, strain: Array, stress: Array, matrix: Array, label: str) -> None:
+    """Stress responses as points, the ellipse of the linear map as a line."""
+    style = line_style(index)
+    angle = np.linspace(0, 2 * np.pi, 181)
+    axes.plot(*(matrix @ np.stack([np.cos(angle), np.sin(angle)]) * strain.mean()), **(style | {"linewidth": 1.0}))
+    axes.plot(*stress.T, "os^Dv*"[index % 6], markersize=3.5, color=style["color"], label=label)
+
+
+def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
+    """Figures 2 and 3: stress responses with the linear map's ellipse, of element tests too, and of the fabric."""
+    with draw.panels(path, 3) as (stress, sand, fabric):
+        for index, fan in enumerate(fans):
+            stiffness = fan.run.results["material"]["stiffness"] / 1e3
+            matrix, _ = fan.linear
+            label = f"Z = {fan.coordination:.2f}"
+            stress_panel(stress, index, fan.strain, fan.stress / stiffness, matrix / stiffness, label)
+            change = np.array([snapshot["change"][:2] for snapshot in fan.changes["snapshots"]])
+            closed = [*range(len(change)), 0]
+            fabric.plot(*change[closed].T, marker="o", markersize=3, **line_style(index))
+        for index, probes in enumerate(element):
+            scale = element[0].size / probes.size
+            matrix, error = probes.linear
+            label = f"{probes.title}: {100 * error:.1f} %"
+            stress_panel(sand, index, np.full(1, element[0].size), scale * probes.stress, matrix, label)
+        stress.set(xlabel=r"$\Delta\sigma_{xx}/k_n$", ylabel=r"$\Delta\sigma_{yy}/k_n$", title="DEM, stress")
+        sand.set(
+            xlabel=r"$\Delta\sigma_{xx}$ [kPa]", ylabel=r"$\Delta\sigma_{yy}$ [kPa]", title="element tests, stress"
+        )
+        fabric.set(xlabel=r"$\Delta F_{xx}$", ylabel=r"$\Delta F_{yy}$", title="DEM, fabric")
+        for axes in (stress, sand, fabric):
+            axes.set_aspect("equal", adjustable="datalim")
+        stress.legend(fontsize=7)
+        sand.legend(fontsize=7, title="off the ellipse", title_fontsize=7)
+
+
+def rates(fans: list[Fan], path: Path) -> None:
+    """Figures 5 and 6: rates of change over the direction of the probe, with the fitted law."""
+    fine = np.linspace(0, 360, 181)
+    with draw.panels(path, 3, rows=2, size=(85, 65)) as axes:
+        for column, mechanism in enumerate(MECHANISMS):
+            for row, which in enumerate(("dZ", "dA")):
+                panel = axes[3 * row + column]
+                if (mechanism, which) == ("reorientation", "dZ"):
+                    panel.set_axis_off()  # zero by definition
+                    continue
+                for index, fan in enumerate(fans):
+                    style = line_style(index)
+                    label = f"Z = {fan.coordination:.2f}"
+                    panel.plot(
+                        fan.alpha, fan.rate(mechanism, which), "o", markersize=3, color=style["color"], label=label
+                    )
+                    panel.plot(fine, fan.law(mechanism, which, fine), **(style | {"linewidth": 1.0}))
+                name = {"dZ": r"$\Delta Z^*$", "dA": r"$\Delta A^*$"}[which]
+                panel.set(xlim=(0, 360), xticks=range(0, 361, 90), title=f"{name}, {mechanism}")
+                if row == 1:
+                    panel.set_xlabel(r"direction $\alpha$ [deg]")
+                low, high = {"gain": (18.4, 71.6), "loss": (198.4, 251.6)}.get(mechanism, (0, 0))
+                panel.axvspan(low, high, color="0.9")
+        axes[0].legend()
+
+
+def roses(fan: Fan, path: Path) -> None:
+    """Figure 4: orientations of lost and gained contacts for five directions, with second-order harmonics (Eq. 5)."""
+    shown = [45, 90, 135, 180, 225]
+    with rc_context(STYLE):
+        figure = Figure(figsize=(55 * len(shown) / INCH, 110 / INCH), layout="constrained")
+        for column, angle in enumerate(shown):
+            snapshot = fan.changes["snapshots"][int(np.argmin(np.abs(fan.alpha - angle)))]
+            for row, mechanism in enumerate(("loss", "gain")):
+                axes = figure.add_subplot(2, len(shown), row * len(shown) + column + 1, projection="polar")
+                rose = snapshot[mechanism]["rose"]
+                count = np.array(rose["count"], dtype=float)
+                pairs = count.reshape(-1, 4).sum(axis=1)  # bins of 30 degrees: contacts are few
+                width = math.pi / len(pairs)
+                middle = (np.arange(len(pairs)) + 0.5) * width
+                for turn in (0.0, math.pi):
+                    axes.bar(middle + turn, pairs, width=width, color="#7FBFE8", edgecolor="#00508C", linewidth=0.4)
+                theta = np.linspace(0, 2 * np.pi, 181)
+                if rose["contacts"] > 0:
+                    law = 1 + rose["anisotropy"] * np.cos(2 * (theta - math.radians(rose["direction"])))
+                    axes.plot(theta, np.maximum(0, pairs.mean() * law), color="#D55E00", linewidth=1.2)
+                axes.set_title(rf"{mechanism}, $\alpha$ = {angle}$^\circ$: {rose['contacts']}", fontsize=8)
+                axes.set_xticklabels([])
+                axes.tick_params(labelsize=6)
+        figure.savefig(path, dpi=110)
+
+
+def trends(fans: list[Fan], path: Path) -> None:
+    """Figures 7 and 8: characteristic rates and a1 to a5 over Z, with standard errors."""
+    z = [fan.coordination for fan in fans]
+    with draw.panels(path, 3) as (loss, gain, total):
+        for axes, mechanism in ((loss, "loss"), (gain, "gain")):
+            for index, name in enumerate(("dZ_extension", "dZ_shear", "dZ_compression", "E", "G")):
+                values = [fan.coefficient(mechanism, name) for fan in fans]
+                style = {key: line_style(index)[key] for key in ("color", "linestyle")}
+                label = name.replace("dZ_", "dZ*, ")
+                axes.errorbar(
+                    z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=label, **style
+                )
+            axes.set_title(mechanism)
+        for index in range(5):
+            values = [
+                (fan.changes["response"]["a"][index]["value"], fan.changes["response"]["a"][index]["error"])
+                for fan in fans
+            ]
+            style = {key: line_style(index)[key] for key in ("color", "linestyle")}
+            total.errorbar(
+                z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=f"a{index + 1}", **style
+            )
+        total.set_title("total, Eq. 19")
+        for axes in (loss, gain, total):
+            axes.set_xlabel("Z before the probes")
+            axes.legend(fontsize=7)
