@@ -98,4 +98,9 @@ int core_fabric_correct(const double *fabric, double noise2, double *corrected);
 int core_fabric_to_delta(const double *fabric, double R, double c, const char *weight, double *numbers, size_t length);
 void core_weight(int index, char *name, char *formula, size_t name_size, size_t formula_size);
 
+/* Designs of many runs. */
+int core_quasi_random(const char *sequence, long long skip, int n, int dimension, double *points, size_t length);
+int core_quantiles(int shape, const double *parameters, int n, const double *probabilities, double *values);
+int core_probabilities(int shape, const double *parameters, int n, const double *values, double *probabilities);
+
 #endif

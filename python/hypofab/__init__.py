@@ -24,6 +24,9 @@ _HOMES = {
         *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability"),
         "triangles",
     ),
+    "sampling": ("quasi_random",),
+    "sweeps.sobol_indices": ("SobolIndices", "sobol", "sobol_indices"),
+    "sweeps.sweep": ("SweepResult", "read_sweep", "sweep"),
     "tensors": ("COMPONENTS", "components", "matrix"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}

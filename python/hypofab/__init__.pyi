@@ -43,6 +43,13 @@ from hypofab.probing import fit_ellipsoid as fit_ellipsoid
 from hypofab.probing import probe as probe
 from hypofab.probing import state_stability as state_stability
 from hypofab.probing import triangles as triangles
+from hypofab.sampling import quasi_random as quasi_random
+from hypofab.sweeps.sobol_indices import SobolIndices as SobolIndices
+from hypofab.sweeps.sobol_indices import sobol as sobol
+from hypofab.sweeps.sobol_indices import sobol_indices as sobol_indices
+from hypofab.sweeps.sweep import SweepResult as SweepResult
+from hypofab.sweeps.sweep import read_sweep as read_sweep
+from hypofab.sweeps.sweep import sweep as sweep
 from hypofab.tensors import COMPONENTS as COMPONENTS
 from hypofab.tensors import components as components
 from hypofab.tensors import matrix as matrix

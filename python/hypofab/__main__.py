@@ -18,7 +18,9 @@ from hypofab import (
     probe_surfaces,
     stability_figures,
     stiffness,
+    sweep_command,
 )
+from hypofab.errors import HypofabError, InputError
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.launch import packaged_program
@@ -42,10 +44,16 @@ def save(figure: Figure, stem: Path) -> None:
 
 def plot(directory: Path, options: argparse.Namespace) -> None:
     """Draw the figures of every test and envelope found in a folder of results, beside the CSV files."""
+    if sweep_command.is_sweep(directory):
+        sweep_command.draw(directory, save)
+        return
     has_tests = (directory / "summary.json").exists()
     envelopes = find_envelopes(directory)
     if not has_tests and not envelopes:
-        raise ResultError(f"{directory}: neither a summary.json of `hypofab run` nor a file of `hypofab envelope`")
+        raise ResultError(
+            f"{directory}: neither a summary.json of `hypofab run` nor a file of `hypofab envelope`, "
+            "nor results of a sweep"
+        )
     if has_tests:
         run = read_run(directory)
         zoom = None if options.zoom is None else options.zoom / 100
@@ -87,6 +95,7 @@ def parser() -> argparse.ArgumentParser:
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
 
     fabric_command.add_parser(commands)
+    sweep_command.add_parser(commands)
 
     source = Path(__file__).parents[2]
     paper = commands.add_parser("paper", help="DEM runs of examples/dem and element tests beside a paper's results")
@@ -131,6 +140,8 @@ def main(arguments: list[str] | None = None) -> int:
             print(stiffness.table(columns | stiffness.REFERENCES))
         elif options.command == "fabric":
             fabric_command.run(options, save)
+        elif options.command == "sweep":
+            return sweep_command.run(options, save)
         elif options.command == "paper":
             runs = options.runs or Path(__file__).parents[2] / "examples/dem/results" / options.paper
             print(papers.compare(options.paper, runs, options.out))
@@ -157,6 +168,9 @@ def main(arguments: list[str] | None = None) -> int:
     except (ResultError, CatalogueError, contact_files.ContactFileError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
+    except HypofabError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2 if isinstance(error, InputError) else 3
     return 0
 
 

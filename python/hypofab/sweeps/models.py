@@ -1,0 +1,150 @@
+"""What a run computes: a deck with the values of a point put in, or a function. Models travel between processes."""
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from hypofab.decks import Study
+from hypofab.errors import HypofabError, Status
+from hypofab.fabrics import fabric_of_file
+from hypofab.sweeps.deck_path import Step, replaced
+from hypofab.sweeps.outputs import Output
+
+Point = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Outputs of one run, and the reason when there are none or not all."""
+
+    values: Mapping[str, Any]
+    status: Status = Status.OK
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class DeckModel:
+    """A deck in which the inputs have places."""
+
+    deck: Mapping[str, Any]
+    folder: str
+    """of the paths in the deck"""
+    places: Mapping[str, Sequence[tuple[Step, ...]]]
+    outputs: tuple[Output, ...]
+
+    def at(self, point: Point) -> Mapping[str, Any]:
+        """The deck of a point."""
+        deck = self.deck
+        for name, paths in self.places.items():
+            for path in paths:
+                deck = replaced(deck, path, point[name])
+        return deck
+
+    def study(self, point: Point) -> Study:
+        """The study of a point; InputError if its numbers are not admissible."""
+        return Study(with_fabrics(self.at(point), self.folder), folder=self.folder)
+
+    def __call__(self, point: Point) -> Outcome:
+        """Run the tests that outputs ask for."""
+        return _run(self.study(point), self.outputs)
+
+
+@dataclass(frozen=True)
+class BuiltModel:
+    """A function that gives a deck, or tests as objects, for a point."""
+
+    build: Callable[[Point], Any]
+    folder: str
+    outputs: tuple[Output, ...]
+
+    def __call__(self, point: Point) -> Outcome:
+        """Build, and run the tests that outputs ask for."""
+        return _run(Study(self.build(dict(point)), folder=self.folder), self.outputs)
+
+
+@dataclass(frozen=True)
+class FunctionModel:
+    """A function that gives the outputs for a point: a mapping, numbers in their order, or one number."""
+
+    function: Callable[[Point], Any]
+    outputs: tuple[str, ...]
+
+    def __call__(self, point: Point) -> Outcome:
+        """Call it."""
+        result = self.function(dict(point))
+        if not isinstance(result, Mapping):
+            result = dict(zip(self.outputs, np.atleast_1d(np.asarray(result, dtype=np.float64)), strict=True))
+        return Outcome({name: float(result[name]) for name in self.outputs})
+
+
+Model = DeckModel | BuiltModel | FunctionModel
+
+
+def _run(study: Study, outputs: Sequence[Output]) -> Outcome:
+    results = {}
+    status, reason = Status.OK, None
+    values = {}
+    for output in outputs:
+        name = output.test or study.tests[0]
+        if name not in results:
+            results[name] = study.run_test(name)
+            if results[name].status and not status:
+                status, reason = results[name].status, f"test '{name}': {results[name].message}"
+        values[output.name] = output.of(results[name].rows, not results[name].status)
+    return Outcome(values, status, reason)
+
+
+def run_points(model: Model, runs: Sequence[tuple[int, Point]]) -> list[dict[str, Any]]:
+    """Run some points, with their numbers; one row of outputs each, whatever happens to them."""
+    rows = []
+    for number, point in runs:
+        begun = perf_counter()
+        try:
+            outcome = model(point)
+        except HypofabError as error:
+            outcome = Outcome({}, error.status, str(error))
+        except Exception as error:  # of the user's function: a reason of this row
+            outcome = Outcome({}, Status.INTERNAL_ERROR, f"{type(error).__name__}: {error}")
+        rows.append(row_of(number, outcome, perf_counter() - begun))
+    return rows
+
+
+def row_of(number: int, outcome: Outcome, seconds: float) -> dict[str, Any]:
+    """The row of a run, without its inputs."""
+    end = {"status": int(outcome.status), "reason": outcome.reason, "seconds": seconds}
+    return {"run": number, **outcome.values, **end}
+
+
+@lru_cache(maxsize=64)
+def _fabric(path: str, particles: str | None, columns: tuple, separator: str) -> tuple[float, ...]:
+    count = int(particles) if particles and particles.isdecimal() else particles
+    fabric = fabric_of_file(path, particles=count, columns=dict(columns), separator=separator)
+    return tuple(fabric.fabric.tolist())
+
+
+def with_fabrics(deck: Mapping[str, Any], folder: str) -> Mapping[str, Any]:
+    """The deck with fabric tensors in the place of contact files, each read once per process."""
+    states = deck.get("states")
+    if not isinstance(states, Sequence) or isinstance(states, str):
+        return deck
+    return {**deck, "states": [_with_fabric(state, folder) for state in states]}
+
+
+def _with_fabric(state: Any, folder: str) -> Any:  # noqa: ANN401 - a part of a deck
+    delta = state.get("delta") if isinstance(state, Mapping) else None
+    if not isinstance(delta, Mapping) or not isinstance(delta.get("contacts"), str | os.PathLike):
+        return state
+    rest = dict(delta)
+    path = os.path.join(folder, os.fspath(rest.pop("contacts")))
+    particles = rest.pop("particles", None)
+    if particles is not None:
+        particles = str(particles)
+        particles = particles if particles.isdecimal() else os.path.join(folder, particles)
+    columns = tuple(sorted((str(key), str(value)) for key, value in (rest.pop("columns", None) or {}).items()))
+    tensor = _fabric(path, particles, columns, str(rest.pop("separator", None) or ""))
+    return {**state, "delta": {**rest, "fabric": list(tensor)}}
