@@ -11,11 +11,14 @@ module umat_batch
   use, intrinsic :: iso_fortran_env, only: int64
   use umat_batch_lanes
   use umat_batch_begin_portable, only: begin_increment_portable => begin_increment, begin_segment_portable => begin_segment
+  use umat_batch_short_portable, only: attempt_short_portable => attempt_short
   use umat_batch_step_portable, only: attempt_step_portable => attempt_step
 #ifdef HYPOFAB_BATCH_X86
   use umat_batch_begin_avx2, only: begin_increment_avx2 => begin_increment, begin_segment_avx2 => begin_segment
+  use umat_batch_short_avx2, only: attempt_short_avx2 => attempt_short
   use umat_batch_step_avx2, only: attempt_step_avx2 => attempt_step
   use umat_batch_begin_avx512, only: begin_increment_avx512 => begin_increment, begin_segment_avx512 => begin_segment
+  use umat_batch_short_avx512, only: attempt_short_avx512 => attempt_short
   use umat_batch_step_avx512, only: attempt_step_avx512 => attempt_step
 #endif
   use umat_kinds, only: wp
@@ -111,16 +114,15 @@ contains
     real(wp) :: lanes(n_lanes, n_fields)
     integer(int64) :: tags(n_lanes, n_tags)
     integer :: point(n_lanes) !< whose numbers a lane holds
-    integer :: left, top !< number of points left, and the last lane in use: between them may be copies, whose point is 0
+    integer :: left !< number of points left; behind them are copies, whose point is 0
 
     call load()
     call close_ranks()
     if (left > 0) call begin_increments()
     call close_ranks()
     do while (left > 0)
-      call step_all()
-      call end_segments()
-      call close_ranks()
+      call try_short_legs()
+      if (left > 0) call step_all()
     end do
 
   contains
@@ -130,7 +132,6 @@ contains
       logical :: finite(most_points)
       integer :: j, k
       left = n
-      top = n
       do k = 1, n
         lanes(k, l_e) = void_ratio(k)
         finite(k) = ieee_is_finite(void_ratio(k))
@@ -171,15 +172,13 @@ contains
     subroutine close_ranks()
       integer :: kept, j
       kept = 0
-      do j = 1, top
-        if (point(j) == 0) cycle
+      do j = 1, left
         if (tags(j, t_outcome) == outcome_special) call update_alone(point(j))
         if (tags(j, t_outcome) /= outcome_begin .and. tags(j, t_outcome) /= outcome_going) cycle
         kept = kept + 1
         if (kept /= j) call move(j, kept)
       end do
       left = kept
-      top = left
       if (left > 0) call fill_up(left)
     end subroutine close_ranks
 
@@ -201,31 +200,18 @@ contains
       end do
     end subroutine fill_up
 
-    !> Order the lanes by rule, each in registers of its own, and those with long paths last, so that few registers do more
-    !> than the series of the path.
-    !> @param short lanes of the short rule, whole registers
-    subroutine arrange(short)
-      integer, intent(out) :: short
-      integer :: n_short, near, gap, j
-      n_short = partition(1, left, tags(:, t_rule) == rule_short)
-      near = partition(1, n_short, is_near())
-      near = partition(n_short + 1, left, is_near())
-      short = padded(n_short)
-      top = left
-      gap = short - n_short
-      if (n_short == 0 .or. n_short == left) then
+    !> Legs that begin are done in one step where they are short, and those that follow upon them.
+    subroutine try_short_legs()
+      integer :: n_new
+      do
+        n_new = partition(1, left, tags(:, t_rule) == rule_short)
+        if (n_new == 0) exit
         call fill_up(left)
-        return
-      end if
-      ! The first of the long ones make room.
-      do j = n_short + 1, min(left, short)
-        call move(j, max(left, short) + j - n_short)
+        call attempt_short(n_new)
+        call end_segments()
+        call close_ranks()
       end do
-      top = left + min(gap, left - n_short)
-      if (left < short) top = short + left - n_short
-      call fill_up(n_short)
-      if (top > short) call fill_up(top)
-    end subroutine arrange
+    end subroutine try_short_legs
 
     !> Will the series of the path mostly reach?
     pure function is_near() result(near)
@@ -289,39 +275,56 @@ contains
       end select
     end subroutine begin_increments
 
-    !> Begin the segments that are to begin, and try one step in every lane.
+    !> Begin the segments that are to begin, and try one step in every lane. Those with long paths stand together, so that few
+    !> registers do more than the series of the path.
     subroutine step_all()
-      integer :: short
-      if (any(tags(:left, t_outcome) == outcome_begin)) then
-        select case (instructions)
-#ifdef HYPOFAB_BATCH_X86
-        case (avx512)
-          call begin_segment_avx512(m, options, padded(left), lanes, tags)
-        case (avx2)
-          call begin_segment_avx2(m, options, padded(left), lanes, tags)
-#endif
-        case default
-          call begin_segment_portable(m, options, padded(left), lanes, tags)
-        end select
-      end if
-      call arrange(short)
-      call attempt(rule_short, 0, short)
-      call attempt(rule_long, short, padded(top) - short)
+      integer :: near
+      if (any(tags(:left, t_outcome) == outcome_begin)) call begin_segments()
+      near = partition(1, left, is_near())
+      call fill_up(left)
+      call attempt()
+      call end_segments()
+      call close_ranks()
     end subroutine step_all
 
-    !> Try one step by a rule.
-    !> @param first, n lanes first + 1 to first + n
-    subroutine attempt(rule, first, n)
-      integer, intent(in) :: rule, first, n
+    subroutine begin_segments()
       select case (instructions)
 #ifdef HYPOFAB_BATCH_X86
       case (avx512)
-        call attempt_step_avx512(m, options%tolerance, rule, first, n, lanes, tags)
+        call begin_segment_avx512(m, options, padded(left), lanes, tags)
       case (avx2)
-        call attempt_step_avx2(m, options%tolerance, rule, first, n, lanes, tags)
+        call begin_segment_avx2(m, options, padded(left), lanes, tags)
 #endif
       case default
-        call attempt_step_portable(m, options%tolerance, rule, first, n, lanes, tags)
+        call begin_segment_portable(m, options, padded(left), lanes, tags)
+      end select
+    end subroutine begin_segments
+
+    !> @param n lanes that begin a leg, the first ones
+    subroutine attempt_short(n)
+      integer, intent(in) :: n
+      select case (instructions)
+#ifdef HYPOFAB_BATCH_X86
+      case (avx512)
+        call attempt_short_avx512(m, options%tolerance, padded(n), lanes, tags)
+      case (avx2)
+        call attempt_short_avx2(m, options%tolerance, padded(n), lanes, tags)
+#endif
+      case default
+        call attempt_short_portable(m, options%tolerance, padded(n), lanes, tags)
+      end select
+    end subroutine attempt_short
+
+    subroutine attempt()
+      select case (instructions)
+#ifdef HYPOFAB_BATCH_X86
+      case (avx512)
+        call attempt_step_avx512(m, options%tolerance, rule_long, 0, padded(left), lanes, tags)
+      case (avx2)
+        call attempt_step_avx2(m, options%tolerance, rule_long, 0, padded(left), lanes, tags)
+#endif
+      case default
+        call attempt_step_portable(m, options%tolerance, rule_long, 0, padded(left), lanes, tags)
       end select
     end subroutine attempt
 
@@ -329,15 +332,16 @@ contains
     subroutine end_segments()
       integer :: lane(n_lanes), done, j, k
       done = 0
-      do k = 1, top
-        if (point(k) == 0) cycle
+      do k = 1, left
         if (tags(k, t_outcome) == outcome_going .and. .not. may_go_on(k)) tags(k, t_outcome) = outcome_special
         if (tags(k, t_outcome) /= outcome_segment_done) cycle
         if (lanes(k, l_rest) > 0.0_wp) then
           lanes(k, l_length) = lanes(k, l_rest)
           lanes(k, l_rest) = 0.0_wp
+          lanes(k, l_done) = 0.0_wp
           tags(k, t_kind) = kind_plane
           tags(k, t_outcome) = outcome_begin
+          tags(k, t_rule) = rule_short
         else
           done = done + 1
           lane(done) = k

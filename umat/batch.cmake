@@ -12,7 +12,7 @@ set(kernel_options $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-O3> -fno-trapp
                    -Wno-unused-function)
 
 # add_kernel(NAME OPTION...): the kernel as the modules umat_batch_begin_NAME, umat_batch_path_NAME, ...
-set(kernel_parts begin path reach rate linear errors step)
+set(kernel_parts begin path reach rate linear short errors step)
 function(add_kernel name)
   add_library(hypofab_batch_${name} OBJECT)
   foreach(part ${kernel_parts})
@@ -44,7 +44,7 @@ foreach(kernel ${kernels})
 endforeach()
 target_link_libraries(hypofab_batch PRIVATE hypofab_model hypofab_batch_lanes ${kernels})
 # CMake does not see that a part uses modules of another target: rebuild it when their sources change.
-set(used batch_lanes.f90 kinds.F90 status.f90 material.f90 lobatto.f90 delta_path.f90 wolffersdorff.f90 step.f90 integration.f90)
+set(used batch_lanes.f90 kinds.F90 status.f90 material.f90 lobatto.f90 delta_path.f90 wolffersdorff.f90 step.f90 integration.f90 short_leg.f90)
 list(TRANSFORM used PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 set(kernel_sources ${kernel_parts})
 list(TRANSFORM kernel_sources REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/batch_\\1.F90")

@@ -7,8 +7,7 @@ module HYPOFAB_BATCH_BEGIN
   use umat_batch_lanes
   use umat_material, only: material_type
   use umat_delta_path, only: axis_power
-  use umat_integration, only: options_type, vanishing, first_step, short_of_R, short_plain
-  use umat_lobatto, only: rule_short, rule_long
+  use umat_integration, only: options_type, vanishing, first_step
   implicit none
   private
   public :: begin_increment, begin_segment
@@ -71,6 +70,7 @@ contains
       first_length = merge(min(turn, length), length, turn > 0.0_wp)
       lanes(i, l_length) = first_length
       lanes(i, l_rest) = length - first_length
+      lanes(i, l_done) = 0.0_wp
       lanes(i, l_evaluations) = 0.0_wp
       lanes(i, l_refused) = 0.0_wp
       tags(i, t_kind) = merge(kind_straight, kind_plane, turn > 0.0_wp)
@@ -117,8 +117,6 @@ contains
         lanes(i, l_wanted) = chosen(begins, lanes(i, l_length), lanes(i, l_wanted))
         lanes(i, l_speed) = 1.0_wp
         lanes(i, l_rho) = 1.0_wp
-      tags(i, t_rule) = merge(merge(int(rule_short, int64), int(rule_long, int64), lanes(i, l_length) <= short_plain), &
-                                tags(i, t_rule), begins > half)
         lanes(i, l_done) = chosen(begins, 0.0_wp, lanes(i, l_done))
         lanes(i, l_evaluations) = lanes(i, l_evaluations) + begins
         tags(i, t_kind) = kind_fixed
@@ -211,8 +209,6 @@ contains
       lanes(i, l_done) = chosen(begins, 0.0_wp, lanes(i, l_done))
       lanes(i, l_evaluations) = lanes(i, l_evaluations) + begins
       tags(i, t_kind) = merge(kind, tags(i, t_kind), begins > half)
-      tags(i, t_rule) = merge(merge(int(rule_short, int64), int(rule_long, int64), wanted <= short_of_R * R), tags(i, t_rule), &
-                              begins > half)
       tags(i, t_outcome) = merge(merge(outcome_special, outcome_going, unfit > half), tags(i, t_outcome), begins > half)
     end do
   end subroutine begin_segment

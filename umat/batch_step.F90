@@ -336,18 +336,6 @@ contains
     end do
   end subroutine move_delta
 
-  !> 1 outside the domain or close to its border, otherwise 0; of T - p_t 1.
-  elemental function outside_domain(t1, t2, t3, t4, t5, t6) result(outside)
-    real(wp), intent(in) :: t1, t2, t3, t4, t5, t6
-    real(wp) :: outside
-    real(wp) :: pressure, second, third
-    real(wp), parameter :: margin = 1.0e-12_wp
-    pressure = -(t1 + t2 + t3)
-    second = t1 * t2 + t2 * t3 + t3 * t1 - t4 * t4 - t5 * t5 - t6 * t6
-    third = -(t1 * (t2 * t3 - t6 * t6) - t4 * (t4 * t3 - t5 * t6) + t5 * (t4 * t6 - t5 * t2))
-    outside = merge(0.0_wp, 1.0_wp, min(pressure, second - margin * pressure**2, third - margin * pressure**3) > 0.0_wp)
-  end function outside_domain
-
   include 'batch_series.inc'
 
 end module HYPOFAB_BATCH_STEP

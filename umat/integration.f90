@@ -7,15 +7,16 @@ module umat_integration
   use umat_lobatto, only: rules, rule_short, rule_long
   use umat_material, only: material_type
   use umat_rate, only: state_type
+  use umat_short_leg, only: short_leg
   use umat_status, only: status_ok, status_out_of_domain, status_step_limit, branch_plain
   use umat_collocation, only: start_of_step
-  use umat_step, only: step_type, reach, try
+  use umat_step, only: step_type, reach, try, size_of, most_share, growth_of
   use umat_tensor, only: norm
   implicit none
   private
   public :: options_type, report_type, integrate
   ! For many points side by side (batch_begin.F90).
-  public :: vanishing, first_step, short_of_R, short_plain, nearly
+  public :: vanishing, first_step, nearly
 
   !> Options of an update.
   type :: options_type
@@ -37,10 +38,8 @@ module umat_integration
   !> First step tried, at the default tolerance: this part of R, in which delta turns. Where the stress changes too much the
   !> prediction shortens it.
   real(wp), parameter :: step_of_R = 0.6_wp, step_with_tangent = 0.35_wp
-  !> Up to this part of R, or this strain of the plain model, the short rule is tried first.
-  real(wp), parameter :: short_of_R = 0.15_wp, short_plain = 1.0e-5_wp
-  !> The tangent asks more of the nodes: this part of that.
-  real(wp), parameter :: short_with_tangent = 0.1_wp
+  !> With the tangent, the rule of three nodes is tried first up to this part of R, or this strain of the plain model.
+  real(wp), parameter :: few_nodes_of_R = 0.015_wp, few_nodes_plain = 1.0e-6_wp
 
   !> A step that is meant to cover this part of what is left covers it all; above the most that is left after a rejection (step.f90).
   real(wp), parameter :: nearly = 0.95_wp
@@ -69,12 +68,11 @@ contains
     type(leg_type) :: leg
     type(step_type) :: step
     real(wp) :: wanted !< length of strain that the next step should cover
-    real(wp) :: growth, covered
+    real(wp) :: growth, covered, error
     logical :: accepted
 
     status = status_ok
     if (.not. length > 0.0_wp) return
-    leg%path = delta_path(m, state%delta, direction, branch, turn)
     leg%branch = branch
     leg%direction = direction
     leg%turn = turn
@@ -83,17 +81,28 @@ contains
     leg%tolerance = options%tolerance
     leg%with_tangent = with_tangent
 
+    call start_of_step(m, state%stress, state%void_ratio, step%start, status)
+    step%evaluations = 1
+    if (status == status_ok .and. .not. with_tangent) then
+      call short_leg(m, leg, step%start, size_of(step%start), most_share * options%tolerance, state, error, accepted, &
+                     step%evaluations)
+      if (accepted) then
+        report%evaluations = report%evaluations + step%evaluations
+        report%substep = growth_of(error / (most_share * options%tolerance), 4) * length
+        return
+      end if
+    end if
+
+    leg%path = delta_path(m, state%delta, direction, branch, turn)
     wanted = length
     if (m%intergranular) wanted = min(length, first_step(options, with_tangent) * m%R)
-    step%rule = merge(rule_short, rule_long, wanted <= merge(short_of_R * m%R, short_plain, m%intergranular) * &
-                      merge(short_with_tangent, 1.0_wp, with_tangent))
+    step%rule = rule_long
+  if (with_tangent .and. wanted <= merge(few_nodes_of_R * m%R, few_nodes_plain, m%intergranular)) step%rule = rule_short
     step%x = leg%path%start
     step%h = first_guess(m, leg%path, wanted)
     step%obstacle = status_step_limit
     step%influence = influence
     step%influence%integral = 0.0_wp
-    call start_of_step(m, state%stress, state%void_ratio, step%start, status)
-    step%evaluations = 1
     do while (status == status_ok)
       call reach(m, leg, wanted >= nearly * (length - step%done), step)
       covered = step%nodes%length(rules(step%rule)%n)

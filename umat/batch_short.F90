@@ -1,0 +1,288 @@
+!> Short legs of many points side by side, each in one step: short_leg.f90, written without branches.
+!>
+!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_SHORT).
+module HYPOFAB_BATCH_SHORT
+  use, intrinsic :: iso_fortran_env, only: int64, real64
+  use HYPOFAB_BATCH_LINEAR, only: slopes_type, slopes_at, add_linear
+  use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
+  use umat_batch_lanes
+  use umat_lobatto, only: rule_long
+  use umat_material, only: material_type
+  use umat_short_leg, only: order, farthest, longest_plain, c1, c2, to_end, to_node, of_square, quadrature
+  use umat_step, only: most_share, part_of_pressure
+  implicit none
+  private
+  public :: attempt_short
+
+  integer, parameter :: wp = real64
+  !> Stands for a size that vanishes in a divisor.
+  real(wp), parameter :: tiny_size = 1.0e-70_wp
+
+  !> delta along a leg: operands of the rate at the start and the nodes, times its length; delta at the end.
+  type :: operands_type
+    real(wp) :: x(width, 6, 0:2), weight(width, 0:2)
+    real(wp) :: delta(width, 6)
+    real(wp) :: fall(width) !< how the powers of the operands fall at least
+    real(wp) :: error(width) !< of delta, relative to R
+  end type operands_type
+
+contains
+
+  !> Try legs that begin in one step each.
+  !> @param n     number of lanes, a multiple of width; lanes 1 to n are about to begin a leg, or decided already
+  !> @param lanes in: start of the leg; out: end of it, where the step was accurate enough: outcome_segment_done
+  pure subroutine attempt_short(m, tolerance, n, lanes, tags)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: tolerance
+    integer, intent(in) :: n
+    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
+    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
+    type(operands_type) :: o
+    integer :: b
+    do b = 0, n - 1, width
+      if (m%intergranular) then
+        call follow_delta(m, b, lanes, tags, o)
+      else
+        call plain_operands(b, lanes, o)
+      end if
+      call move_stress(m, most_share * tolerance, b, o, lanes, tags)
+    end do
+  end subroutine attempt_short
+
+  !> The path of delta as a power series; follow_delta in short_leg.f90.
+  !> @param b lanes b + 1 to b + width
+  pure subroutine follow_delta(m, b, lanes, tags, o)
+    type(material_type), intent(in) :: m
+    integer, intent(in) :: b
+    real(wp), intent(in) :: lanes(n_lanes, n_fields)
+    integer(int64), intent(in) :: tags(n_lanes, n_tags)
+    type(operands_type), intent(out) :: o
+    real(wp), dimension(0:order) :: along, across, turn, rho_chi, per_square, decay, back, growth, both
+    real(wp) :: R, inverse_R, beta_r, chi, m_R, m_T, straight, length, u, square, log_rho, rho, step, shrink, normal(6), product
+    real(wp) :: a, v, g, w, turning, on_along, on_across, share
+    integer :: i, j, k
+    R = m%R
+    inverse_R = 1.0_wp / R
+    beta_r = m%beta_r
+    chi = m%chi
+    m_R = m%m_R
+    m_T = m%m_T
+    !GCC$ ivdep
+    do i = 1, width
+      straight = merge(1.0_wp, 0.0_wp, tags(b + i, t_kind) == kind_straight)
+      length = lanes(b + i, l_length) * inverse_R
+      u = (lanes(b + i, l_delta) * lanes(b + i, l_along) + lanes(b + i, l_delta + 1) * lanes(b + i, l_along + 1) + &
+           lanes(b + i, l_delta + 2) * lanes(b + i, l_along + 2) + 2.0_wp * (lanes(b + i, l_delta + 3) * lanes(b + i, l_along + 3) + &
+           lanes(b + i, l_delta + 4) * lanes(b + i, l_along + 4) + lanes(b + i, l_delta + 5) * lanes(b + i, l_along + 5))) * inverse_R
+      !GCC$ unroll 6
+      do j = 1, 6
+        normal(j) = lanes(b + i, l_delta - 1 + j) * inverse_R - u * lanes(b + i, l_along - 1 + j)
+      end do
+      u = chosen(straight, u, max(0.0_wp, u))
+    square = u**2 + (normal(1)**2 + normal(2)**2 + normal(3)**2 + 2.0_wp * (normal(4)**2 + normal(5)**2 + normal(6)**2))
+      rho = sqrt(square)
+      o%error(i) = merge(0.0_wp, huge(rho), length <= farthest * rho)
+      ! Where the leg is not short the series of a larger delta is of no use, but harmless.
+      rho = max(rho, length, tiny_size)
+      shrink = chosen(straight, 1.0_wp, 1.0_wp / max(rho, 1.0_wp))
+      u = u * shrink
+      rho = rho * shrink
+      log_rho = log(rho)
+      along(0) = u
+      across(0) = 1.0_wp
+      rho_chi(0) = exp(chi * log_rho)
+      decay(0) = (1.0_wp - straight) * exp(beta_r * log_rho)
+      step = 1.0_wp / rho
+      o%fall(i) = min(farthest, length * step)
+      per_square(0) = step**2
+      turn(0) = u * per_square(0)
+      !GCC$ unroll 8
+      do k = 0, order - 1
+        product = 0.0_wp
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product + decay(j) * turn(k - j)
+        end do
+        back(k) = product
+        growth(k) = turn(k) - product
+        both(k) = turn(k) + growth(k)
+        step = length * (1.0_wp / (k + 1))
+        product = merge(-1.0_wp, 0.0_wp, k == 0)
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product + along(j) * back(k - j)
+        end do
+        along(k + 1) = -step * product
+        product = 0.0_wp
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product + across(j) * back(k - j)
+        end do
+        across(k + 1) = -step * product
+        product = per_square(k)
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product - turn(j) * both(k - j)
+        end do
+        turn(k + 1) = step * product
+        product = 0.0_wp
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product + rho_chi(j) * growth(k - j)
+        end do
+        rho_chi(k + 1) = chi * step * product
+        product = 0.0_wp
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product + per_square(j) * growth(k - j)
+        end do
+        per_square(k + 1) = -2.0_wp * step * product
+        product = 0.0_wp
+        !GCC$ unroll 8
+        do j = 0, k
+          product = product + decay(j) * growth(k - j)
+        end do
+        decay(k + 1) = beta_r * step * product
+      end do
+   v = shrink * sqrt(normal(1)**2 + normal(2)**2 + normal(3)**2 + 2.0_wp * (normal(4)**2 + normal(5)**2 + normal(6)**2))
+      o%error(i) = max(o%error(i), (abs(along(order)) + v * abs(across(order))) * o%fall(i) / (1.0_wp - o%fall(i)))
+      share = chosen(straight, m_R - m_T, 1.0_wp - m_T)
+      !GCC$ unroll 3
+      do k = 0, 2
+        step = merge(0.0_wp, merge(c1, c2, k == 1), k == 0)
+        a = value_of(along, step)
+        v = value_of(across, step)
+        g = value_of(turn, step)
+        w = value_of(rho_chi, step)
+        turning = share * w * g
+        on_along = lanes(b + i, l_length) * (m_R + w * (m_T - m_R) + turning * a)
+        on_across = lanes(b + i, l_length) * shrink * turning * v
+        ! (delta:d/|delta|)^2 is the product of along and turn.
+        o%weight(i, k) = lanes(b + i, l_length) * (1.0_wp - straight) * w * sqrt(max(0.0_wp, a * g))
+        !GCC$ unroll 6
+        do j = 1, 6
+          o%x(i, j, k) = on_along * lanes(b + i, l_along - 1 + j) + on_across * normal(j)
+        end do
+      end do
+      a = R * value_of(along, 1.0_wp)
+      v = R * shrink * value_of(across, 1.0_wp)
+      !GCC$ unroll 6
+      do j = 1, 6
+        o%delta(i, j) = a * lanes(b + i, l_along - 1 + j) + v * normal(j)
+      end do
+    end do
+  end subroutine follow_delta
+
+  !> Value of a series.
+  pure function value_of(series, place) result(value)
+    real(wp), intent(in) :: series(0:order), place
+    real(wp) :: value
+    value = series(0) + place * (series(1) + place * (series(2) + place * (series(3) + place * ( &
+                                           series(4) + place * (series(5) + place * (series(6) + place * series(7)))))))
+  end function value_of
+
+  !> Operands of the plain model.
+  pure subroutine plain_operands(b, lanes, o)
+    integer, intent(in) :: b
+    real(wp), intent(in) :: lanes(n_lanes, n_fields)
+    type(operands_type), intent(out) :: o
+    integer :: j, k
+    do k = 0, 2
+      o%weight(:, k) = lanes(b + 1:b + width, l_length)
+      do j = 1, 6
+        o%x(:, j, k) = lanes(b + 1:b + width, l_length) * lanes(b + 1:b + width, l_along - 1 + j)
+      end do
+    end do
+    o%delta = 0.0_wp
+    o%fall = 0.0_wp
+    o%error = merge(0.0_wp, huge(1.0_wp), lanes(b + 1:b + width, l_length) <= longest_plain)
+  end subroutine plain_operands
+
+  !> Change of stress over the leg; move_stress in short_leg.f90. Accept the step or leave the lane as it was.
+  pure subroutine move_stress(m, tolerance, b, o, lanes, tags)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: tolerance
+    integer, intent(in) :: b
+    type(operands_type), intent(in) :: o
+    real(wp), intent(inout) :: lanes(n_lanes, n_fields)
+    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
+    type(origin_type) :: origin
+    type(slopes_type) :: slopes
+    type(tensors_type) :: h
+    real(wp), dimension(width, 6, 0:2) :: frozen, f
+    real(wp), dimension(width, 6) :: u, rest
+    real(wp), dimension(width) :: bad, d_void_ratio, length
+    real(wp) :: stress(6), place, theta, left, bend, scale, dev, error, e, third, accepted, p_t, size, going
+    integer :: i, j, k
+
+    bad = 0.0_wp
+    call origin_of_step(m, b, lanes, origin, bad)
+    call slopes_at(m, origin, slopes)
+    do k = 0, 2
+      call apply(m, origin%h, o%x(:, :, k), o%weight(:, k), frozen(:, :, k))
+    end do
+    f = frozen
+    do k = 1, 2
+      place = merge(c1, c2, k == 1)
+      !GCC$ ivdep
+      do i = 1, width
+        d_void_ratio(i) = origin%volume(i) * swelling(lanes(b + i, l_trace) * place * lanes(b + i, l_length))
+      end do
+      u = to_node(0, k) * frozen(:, :, 0) + to_node(1, k) * frozen(:, :, 1) + to_node(2, k) * frozen(:, :, 2)
+      call add_linear(m, origin, slopes, o%x(:, :, k), o%weight(:, k), frozen(:, :, k), u, d_void_ratio, f(:, :, k))
+    end do
+    u = to_node(0, 2) * f(:, :, 0) + to_node(1, 2) * f(:, :, 1) + to_node(2, 2) * f(:, :, 2)
+    length = c2 * lanes(b + 1:b + width, l_length)
+    call tensors_at(m, b, lanes, origin, u, length, h, bad)
+    call apply(m, h, o%x(:, :, 2), o%weight(:, 2), rest)
+    third = 1.0_wp / 3.0_wp
+    p_t = m%p_t
+    !GCC$ ivdep
+    do i = 1, width
+      !GCC$ unroll 6
+      do j = 1, 6
+        rest(i, j) = rest(i, j) - f(i, j, 2)
+        u(i, j) = to_end(0) * f(i, j, 0) + to_end(1) * f(i, j, 1) + to_end(2) * f(i, j, 2) + of_square * rest(i, j)
+        stress(j) = lanes(b + i, l_stress - 1 + j) + u(i, j)
+        f(i, j, 2) = (f(i, j, 2) - f(i, j, 0)) * (1.0_wp / c2) - (f(i, j, 1) - f(i, j, 0)) * (1.0_wp / c1)
+      end do
+      size = sqrt(lanes(b + i, l_stress)**2 + lanes(b + i, l_stress + 1)**2 + lanes(b + i, l_stress + 2)**2 + &
+               2.0_wp * (lanes(b + i, l_stress + 3)**2 + lanes(b + i, l_stress + 4)**2 + lanes(b + i, l_stress + 5)**2))
+      scale = 1.0_wp / max(size, part_of_pressure / origin%inverse_pressure(i), nothing)
+      theta = max(tiny_size, scale * sqrt(u(i, 1)**2 + u(i, 2)**2 + u(i, 3)**2 + 2.0_wp * (u(i, 4)**2 + u(i, 5)**2 + u(i, 6)**2)))
+      left = of_square * scale * sqrt(rest(i, 1)**2 + rest(i, 2)**2 + rest(i, 3)**2 + &
+                                      2.0_wp * (rest(i, 4)**2 + rest(i, 5)**2 + rest(i, 6)**2))
+   dev = sqrt((origin%h%that(i, 1) - third)**2 + (origin%h%that(i, 2) - third)**2 + (origin%h%that(i, 3) - third)**2 + &
+                 2.0_wp * (origin%h%that(i, 4)**2 + origin%h%that(i, 5)**2 + origin%h%that(i, 6)**2))
+      left = left * min(1.0_wp, max(theta, left / theta**2, 0.5_wp * theta / max(dev, theta * theta)))
+      bend = (1.0_wp / (c2 - c1)) * scale * sqrt(f(i, 1, 2)**2 + f(i, 2, 2)**2 + f(i, 3, 2)**2 + &
+                                                 2.0_wp * (f(i, 4, 2)**2 + f(i, 5, 2)**2 + f(i, 6, 2)**2))
+      error = max(o%error(i), left + quadrature * bend * (theta + o%fall(i))**3)
+bad(i) = max(bad(i), outside_domain(stress(1) - p_t, stress(2) - p_t, stress(3) - p_t, stress(4), stress(5), stress(6)))
+      going = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_begin)
+      accepted = going * merge(1.0_wp - bad(i), 0.0_wp, error <= tolerance)
+      e = lanes(b + i, l_e) + (1.0_wp + lanes(b + i, l_e)) * swelling(lanes(b + i, l_trace) * lanes(b + i, l_length))
+      lanes(b + i, l_e) = chosen(accepted, e, lanes(b + i, l_e))
+      !GCC$ unroll 6
+      do j = 1, 6
+        lanes(b + i, l_stress - 1 + j) = chosen(accepted, stress(j), lanes(b + i, l_stress - 1 + j))
+        lanes(b + i, l_delta - 1 + j) = chosen(accepted, o%delta(i, j), lanes(b + i, l_delta - 1 + j))
+      end do
+      ! The evaluation at the start is counted where the leg begins by other means.
+      lanes(b + i, l_evaluations) = lanes(b + i, l_evaluations) + accepted + &
+                                    going * merge(1.0_wp, 0.0_wp, o%error(i) <= tolerance)
+      tags(b + i, t_outcome) = merge(outcome_segment_done, tags(b + i, t_outcome), accepted > half)
+      tags(b + i, t_rule) = rule_long
+    end do
+  end subroutine move_stress
+
+  !> exp(x) - 1 for the change of volume in a short leg.
+  elemental function swelling(x) result(value)
+    real(wp), intent(in) :: x
+    real(wp) :: value
+    value = x * (1.0_wp + x * (1.0_wp / 2 + x * (1.0_wp / 6 + x * (1.0_wp / 24 + x * (1.0_wp / 120)))))
+  end function swelling
+
+  include 'batch_series.inc'
+
+end module HYPOFAB_BATCH_SHORT
