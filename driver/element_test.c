@@ -122,8 +122,8 @@ hypofab_status element_test_run(const hypofab_material *material, const hypofab_
   for (int i = 0; !status && i < n_steps; i++) status = step_check(&steps[i], i + 1);
   if (!status) status = integrator_create(material, options, &r.it);
   if (!status && wanted)
-    status = sensitivity_create(&r, initial, wanted->n, wanted->variations, integrator_tolerance(r.it),
-                                integrator_max_steps(r.it), wanted->sink, &r.sensitivity);
+    status = sensitivity_create(&r, initial, wanted->n, wanted->variations, integrator_tolerance(r.it), wanted->sink,
+                                &r.sensitivity);
   if (!status && n_steps > 0) begin_step(&r, steps); /* the first row is in its frame */
   if (!status) status = run_deliver(&r, HYPOFAB_EVENT_ROW);
   for (int i = 0; !status && i < n_steps; i++) {

@@ -208,8 +208,6 @@ int integrator_glimpse(integrator *it, double time, test_state *state) {
 
 double integrator_tolerance(const integrator *it) { return it->tolerance; }
 
-long integrator_max_steps(const integrator *it) { return it->max_steps; }
-
 int integrator_knows_along(const integrator *it, const test_state *state, double *along) {
   if (it->obstacle || memcmp(&it->evaluated, state, sizeof *state) != 0) return 0;
   *along = it->along;

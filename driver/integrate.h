@@ -62,9 +62,8 @@ hypofab_status integrator_reach(integrator *it, double from, const test_state *s
  */
 int integrator_glimpse(integrator *it, double time, test_state *state);
 
-/** Relative tolerance and bound on the steps in force. */
+/** Relative tolerance in force. */
 double integrator_tolerance(const integrator *it);
-long integrator_max_steps(const integrator *it);
 
 /** The `along` of control_solve at a state, if the last rates were evaluated there. */
 int integrator_knows_along(const integrator *it, const test_state *state, double *along);

@@ -108,4 +108,11 @@ hypofab_status variational_reach(variational_integrator *it, double time, double
   return HYPOFAB_OK;
 }
 
+void variational_here(const variational_integrator *it, double *time, test_state *state, double *change) {
+  const double *y = N_VGetArrayPointer(it->y);
+  *time = it->now;
+  memcpy(state, y, sizeof *state);
+  memcpy(change, y + N_STATE, N_STATE * (size_t)it->system->n * sizeof *change);
+}
+
 long variational_evaluations(const variational_integrator *it) { return it->n_evaluations; }

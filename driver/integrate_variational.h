@@ -36,6 +36,9 @@ hypofab_status variational_start(variational_integrator *it, double time, const 
  */
 hypofab_status variational_reach(variational_integrator *it, double time, double *change);
 
+/** Where the integrator stands: its time, its own state and the derivatives, filled. */
+void variational_here(const variational_integrator *it, double *time, test_state *state, double *change);
+
 /** Rates evaluated since creation. */
 long variational_evaluations(const variational_integrator *it);
 

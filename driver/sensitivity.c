@@ -5,10 +5,15 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "driver/branch_change.h"
 #include "driver/integrate_variational.h"
 #include "driver/path_rates.h"
 #include "driver/quantity_derivative.h"
 #include "driver/tensor.h"
+
+/* Of the integrator between two rows or events: beyond it the derivatives grow without bound. Some hundred are usual.
+ */
+static const long most_steps = 50000;
 
 /* One number for each variation. */
 typedef double *numbers;
@@ -18,12 +23,13 @@ struct sensitivity {
   variational_integrator *it;
   hypofab_sensitivity_sink sink;
   int n;
-  int is_lost;    /* the derivatives could not be followed; they are NaN from here on */
-  int is_running; /* the integrator stands somewhere in the present leg */
-  double *memory; /* of all numbers below */
-  numbers change; /* N_STATE rows: derivatives of the state at constant time since the start of the leg */
-  numbers clock;  /* of the time at which the leg started */
-  numbers moment; /* how the present place moves in time since then */
+  int is_lost;         /* the derivatives could not be followed; they are NaN from here on */
+  int is_running;      /* the integrator stands somewhere in the present leg */
+  double *memory;      /* of all numbers below */
+  numbers change;      /* N_STATE rows: derivatives of the state at constant time since the start of the leg */
+  numbers change_rate; /* as many: for work */
+  numbers clock;       /* of the time at which the leg started */
+  numbers moment;      /* how the present place moves in time since then */
   test_state rate;
   numbers aim, step_clock, origin; /* of the until value; of the time of the step's start; sensitivity_cycle_begins */
   sensitivity_aim aims_at;
@@ -51,6 +57,7 @@ static size_t lay_out(sensitivity *s, double *memory) {
   for (int i = 0; i < HYPOFAB_MAX_STOPS; i++) used = take(&s->start[i], memory, used, n);
   for (int i = 0; i < HYPOFAB_MAX_STOPS; i++) used = take(&s->reversal[i], memory, used, n);
   used = take(&s->change, memory, used, N_STATE * n);
+  used = take(&s->change_rate, memory, used, N_STATE * n);
   used = take(&s->observed, memory, used, N_STATE * n);
   used = take(&s->system.parameter, memory, used, HYPOFAB_N_PARAMETERS * n);
   used = take(&s->system.scratch, memory, used, 12 * n);
@@ -71,8 +78,8 @@ static double relative_size(const hypofab_material *material, const hypofab_stat
 }
 
 hypofab_status sensitivity_create(const run *r, const hypofab_state *initial, int n,
-                                  const hypofab_variation *variations, double tolerance, long max_steps,
-                                  hypofab_sensitivity_sink sink, sensitivity **created) {
+                                  const hypofab_variation *variations, double tolerance, hypofab_sensitivity_sink sink,
+                                  sensitivity **created) {
   const hypofab_material *material = r->observer.material;
   double scale[HYPOFAB_MAX_VARIATIONS];
   *created = NULL;
@@ -94,7 +101,7 @@ hypofab_status sensitivity_create(const run *r, const hypofab_state *initial, in
     s->system.water[k] = variations[k].water;
     scale[k] = relative_size(material, initial, &variations[k]);
   }
-  hypofab_status status = variational_create(&s->system, scale, tolerance, max_steps, &s->it);
+  hypofab_status status = variational_create(&s->system, scale, tolerance, most_steps, &s->it);
   if (status) {
     sensitivity_free(s);
     return status;
@@ -237,10 +244,16 @@ void sensitivity_catch_up(run *r) {
 void sensitivity_begin_segment(run *r, const hypofab_step *leg, hypofab_branch branch) {
   sensitivity *s = r->sensitivity;
   if (!s || s->is_lost) return;
+  double time = r->time;
+  test_state state = r->state;
+  if (s->is_running) {
+    variational_here(s->it, &time, &state, s->change);
+    if (branch_change(&s->system, &time, &state, s->change, s->change_rate)) s->is_lost = 1;
+  }
   s->system.step = leg;
   s->system.branch = branch;
   s->is_running = 1;
-  if (variational_start(s->it, r->time, &r->state, s->change)) s->is_lost = 1;
+  if (variational_start(s->it, time, &state, s->change)) s->is_lost = 1;
 }
 
 void sensitivity_at_row(run *r, const event *row, double last) {
@@ -292,7 +305,7 @@ void sensitivity_end_leg(run *r, const hypofab_step *leg, const schedule *schedu
 
 int sensitivity_deliver(run *r, const hypofab_row *row) {
   sensitivity *s = r->sensitivity;
-  sensitivity_catch_up(r);
+  if (row->event >= 0) sensitivity_catch_up(r);
   const principal_axes axes = principal_axes_of(r->state.material.stress);
   for (int k = 0; k < s->n; k++) {
     double *derivative = s->results + k * HYPOFAB_N_QUANTITIES;

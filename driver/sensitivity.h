@@ -18,13 +18,12 @@
  * @param initial    state at time 0
  * @param variations n of them
  * @param tolerance  relative
- * @param max_steps  of the integrator between two rows or events
  * @param created    set; to be freed with sensitivity_free. NULL on failure
  * @return HYPOFAB_BAD_ARGUMENT, HYPOFAB_NO_MEMORY
  */
 hypofab_status sensitivity_create(const run *r, const hypofab_state *initial, int n,
-                                  const hypofab_variation *variations, double tolerance, long max_steps,
-                                  hypofab_sensitivity_sink sink, sensitivity **created);
+                                  const hypofab_variation *variations, double tolerance, hypofab_sensitivity_sink sink,
+                                  sensitivity **created);
 
 /** Free them; NULL is allowed. */
 void sensitivity_free(sensitivity *s);
