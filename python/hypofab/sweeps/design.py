@@ -170,10 +170,9 @@ def _table(node: Node, entries: Mapping[str, Node], inputs: Sequence[Input]) -> 
             node.fail(f"kind is table, and input '{one.name}' says how it varies, which the table does")
         if one.name not in table.column_names:
             where.refuse(f"a column '{one.name}'; it has {', '.join(table.column_names)}")
-    columns = {one.name: _checked_column(where, one.name, table[one.name]) for one in inputs}
     if table.num_rows == 0:
         where.refuse("at least one row")
-    return pa.table(columns)
+    return pa.table({one.name: _checked_column(where, one.name, table[one.name]) for one in inputs})
 
 
 def _read_table(node: Node) -> pa.Table:

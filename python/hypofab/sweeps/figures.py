@@ -44,7 +44,15 @@ def scatter(result: SweepResult, outputs: Sequence[str] | None = None) -> Figure
                 x, one = result[name], axes[i, j]
                 x = x.astype(str) if x.dtype == object else x
                 good = np.isfinite(y)
-                one.scatter(x[good], y[good], s=9 * many + 1, color="black", alpha=0.25 + 0.6 * many, linewidths=0)
+                one.scatter(
+                    x[good],
+                    y[good],
+                    s=9 * many + 1,
+                    color="black",
+                    alpha=0.25 + 0.6 * many,
+                    linewidths=0,
+                    rasterized=len(result) > 2000,
+                )
                 edge = np.zeros(np.count_nonzero(~good)) + 0.03
                 one.scatter(x[~good], edge, s=14, marker="x", color="#D55E00", transform=one.get_xaxis_transform())
                 _logarithmic(result, name, one)
@@ -104,6 +112,7 @@ def fan(result: SweepResult, name: str) -> Figure:
             axes.fill_between(x, *band, color=grey, linewidth=0, label=f"{100 * low:g} to {100 * high:g} %")
         axes.plot(x, np.nanmedian(values, axis=0), color="black", linewidth=1.5, label="median")
         axes.set(xlabel=abscissa_label(result, name), ylabel=label(result, name))
+        axes.locator_params(axis="x", nbins=6)
         if len(x) and x[-1] < x[0]:
             axes.invert_xaxis()
         figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3)
@@ -121,9 +130,9 @@ def sobol_bars(indices: Mapping[str, SobolIndices]) -> Figure:
         panels = figure.subplots(1, len(shown), squeeze=False, sharey=True)[0]
         for axes, one in zip(panels, shown, strict=True):
             place = np.arange(len(one.inputs))
-            _bars(axes, place - 0.2, one.first, one.first_error, "0.25", "first order")
-            _bars(axes, place + 0.2, one.total, one.total_error, "0.8", "total")
-            axes.set_xticks(place, one.inputs, rotation=0 if len(place) < 4 else 45)
+            _bars(axes, place - 0.2, one.first, one.first_error, "0.5", "first order")
+            _bars(axes, place + 0.2, one.total, one.total_error, "0.85", "total")
+            axes.set_xticks(place, one.inputs, rotation=0 if sum(map(len, one.inputs)) < 20 else 45)
             axes.axhline(0, color="0.3", linewidth=0.8)
             axes.set_title(one.output, fontsize=9)
         panels[0].set_ylabel("share of the variance [-]")
@@ -132,7 +141,7 @@ def sobol_bars(indices: Mapping[str, SobolIndices]) -> Figure:
 
 
 def _bars(axes, place: Array, height: Array, error: Array, grey: str, name: str) -> None:  # noqa: ANN001
-    whiskers = {"capsize": 2.5, "elinewidth": 0.9, "ecolor": "0.45" if grey == "0.25" else "0.2"}
+    whiskers = {"capsize": 2.5, "elinewidth": 0.9, "ecolor": "black"}
     axes.bar(
         place, height, 0.38, yerr=error, color=grey, edgecolor="black", linewidth=0.6, label=name, error_kw=whiskers
     )
