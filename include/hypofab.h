@@ -41,6 +41,7 @@ extern "C" {
 #include "hypofab_describe.h" /* IWYU pragma: export */
 #include "hypofab_sensitivity.h" /* IWYU pragma: export */
 #include "hypofab_sampling.h" /* IWYU pragma: export */
+#include "hypofab_calibration.h" /* IWYU pragma: export */
 /* clang-format on */
 
 #if defined(__GNUC__)
