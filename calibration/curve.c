@@ -120,7 +120,8 @@ static double *gradient_at(const curve *c, int vertex, int parameter) {
 /* Vertices that stand where the plan wants them: all but the one at which a test ended early. */
 static int regular(const curve *c) { return c->status && c->n > 1 ? c->n - 1 : c->n; }
 
-/* Derivatives of one parameter from the curves at two values; what only one of them reaches keeps the last derivative. */
+/* Derivatives of one parameter from the curves at two values; what only one of them reaches keeps the last derivative.
+ */
 static void take_difference(const curve *c, int j, const curve *low, const curve *high, double distance, int axes) {
   int common = regular(c);
   if (regular(low) < common) common = regular(low);

@@ -12,9 +12,9 @@ double square_distance(int axes, const double *a, const double *b);
 
 /** The point of a polyline that is nearest to a given one. */
 typedef struct foot {
-  int segment;      /**< between vertices `segment` and `segment + 1` */
-  double share;     /**< 0 .. 1 along it */
-  int is_end;       /**< an end of the polyline, beyond which the given point lies */
+  int segment;                     /**< between vertices `segment` and `segment + 1` */
+  double share;                    /**< 0 .. 1 along it */
+  int is_end;                      /**< an end of the polyline, beyond which the given point lies */
   double direction[HYPOFAB_N_LAB]; /**< unit vector along the segment */
   double offset[HYPOFAB_N_LAB];    /**< from the foot to the given point */
 } foot;

@@ -186,8 +186,8 @@ static void estimate_beta(int n, const hypofab_laboratory_test *tests, hypofab_d
     const double e_i = estimate->value[E_I0] * decrease(estimate, p);
     if (!(computed > 0.0 && e_i > e)) continue;
     densest = tests[t].void_ratio;
-    set(estimate, BETA, 1.0 + log(measured / computed) / log(e_i / e),
-        "stiffness of oedometer test %.60s, the densest", tests[t].name);
+    set(estimate, BETA, 1.0 + log(measured / computed) / log(e_i / e), "stiffness of oedometer test %.60s, the densest",
+        tests[t].name);
   }
 }
 
@@ -199,8 +199,10 @@ hypofab_status hypofab_estimate_directly(const hypofab_index_tests *index, int n
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "direct estimates: an argument is missing");
   if (!(index->repose >= 0.0 && index->repose < 60.0) || !(index->e_min >= 0.0) || !(index->e_max >= 0.0) ||
       (index->e_max > 0.0 && index->e_min >= index->e_max))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "index tests: angle of repose %g, e_min %g, e_max %g; expected an angle "
-                        "below 60 and e_min < e_max", index->repose, index->e_min, index->e_max);
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
+                        "index tests: angle of repose %g, e_min %g, e_max %g; expected an angle "
+                        "below 60 and e_min < e_max",
+                        index->repose, index->e_min, index->e_max);
   memset(estimate, 0, sizeof *estimate);
   for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) estimate->value[i] = NAN;
   estimate_critical_friction(index, n_tests, tests, estimate);

@@ -81,15 +81,15 @@ hypofab_status fit_run(residuals *r, const double *start, int max_iterations, co
   gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
   parameters.trs = gsl_multifit_nlinear_trs_lm;
   parameters.solver = gsl_multifit_nlinear_solver_qr;
-  parameters.scale = gsl_multifit_nlinear_scale_levenberg; /* steps bounded alike in all unknowns: none runs to a bound */
+  parameters.scale =
+      gsl_multifit_nlinear_scale_levenberg; /* steps bounded alike in all unknowns: none runs to a bound */
   gsl_multifit_nlinear_workspace *w =
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, (size_t)r->n, n);
   if (!w) return hypofab_fail(HYPOFAB_NO_MEMORY, "calibration: out of memory");
   double unknowns[HYPOFAB_MAX_FREE];
   for (size_t j = 0; j < n; j++) unknowns[j] = unknown_from_value(&r->problem->parameters[j], start[j]);
   const gsl_vector_const_view x = gsl_vector_const_view_array(unknowns, n);
-  gsl_multifit_nlinear_fdf functions = {
-      .f = evaluate, .df = differentiate, .n = (size_t)r->n, .p = n, .params = r};
+  gsl_multifit_nlinear_fdf functions = {.f = evaluate, .df = differentiate, .n = (size_t)r->n, .p = n, .params = r};
   hypofab_status status = HYPOFAB_OK;
   if (gsl_multifit_nlinear_init(&x.vector, &functions, w) != GSL_SUCCESS)
     status = hypofab_fail(HYPOFAB_NO_MEMORY, "calibration: out of memory");

@@ -79,8 +79,10 @@ static hypofab_status make_axes(plan *p) {
   if (sum == 0.0) laboratory_default_quantities(test, weight);
   for (int q = 0; q < HYPOFAB_N_LAB; q++) {
     if (!(weight[q] >= 0.0 && isfinite(weight[q])) || (weight[q] > 0.0 && !test->measured[q]))
-      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "test '%s': %s has the weight %g; expected 0 or more, and 0 when it is "
-                          "not measured", test->name, hypofab_laboratory_quantity_name(q), weight[q]);
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
+                          "test '%s': %s has the weight %g; expected 0 or more, and 0 when it is "
+                          "not measured",
+                          test->name, hypofab_laboratory_quantity_name(q), weight[q]);
     if (weight[q] == 0.0) continue;
     const double range = range_of(p, q);
     if (!(range > 0.0))
@@ -133,7 +135,9 @@ static hypofab_status make_steps(plan *p, const double *drive, const int *turns,
   const int which = laboratory_drive(p->test);
   const int log_scale = laboratory_is_log(p->test, which);
   const double *parts = log_scale ? log_parts : which == HYPOFAB_LAB_EPS1 ? strain_parts : stress_parts;
-  p->steps_of_leg = log_scale ? COUNT(log_parts) : which == HYPOFAB_LAB_EPS1 ? COUNT(strain_parts) : COUNT(stress_parts);
+  p->steps_of_leg = log_scale                   ? COUNT(log_parts)
+                    : which == HYPOFAB_LAB_EPS1 ? COUNT(strain_parts)
+                                                : COUNT(stress_parts);
   p->n_legs = n_turns - 1;
   p->n_steps = p->n_legs * p->steps_of_leg;
   p->steps = calloc((size_t)p->n_steps, sizeof *p->steps);

@@ -22,12 +22,12 @@ typedef struct plan_axes {
 typedef struct plan {
   const hypofab_laboratory_test *test;
   plan_axes axes;
-  double origin[HYPOFAB_N_LAB];    /**< of measured strains, which count from the first row; else 0 */
-  int n;                           /**< rows compared */
-  int *row;                        /**< which */
-  int *leg;                        /**< of each */
-  double (*point)[HYPOFAB_N_LAB];  /**< their coordinates */
-  int n_legs, n_steps;             /**< steps_of_leg steps each */
+  double origin[HYPOFAB_N_LAB];   /**< of measured strains, which count from the first row; else 0 */
+  int n;                          /**< rows compared */
+  int *row;                       /**< which */
+  int *leg;                       /**< of each */
+  double (*point)[HYPOFAB_N_LAB]; /**< their coordinates */
+  int n_legs, n_steps;            /**< steps_of_leg steps each */
   int steps_of_leg;
   hypofab_step *steps;
   double first_sense; /**< 1: the test begins with compression along the axis, -1: extension */

@@ -25,9 +25,9 @@ typedef double square[MOST][MOST];
 
 /* What the data tell of the parameters that are not at a bound. */
 typedef struct information {
-  int n, index[MOST];  /* free parameters and their places in the problem */
-  square hessian;      /* sum of J^T J */
-  square inverse;      /* of it */
+  int n, index[MOST]; /* free parameters and their places in the problem */
+  square hessian;     /* sum of J^T J */
+  square inverse;     /* of it */
   int rank;
 } information;
 
@@ -81,9 +81,9 @@ static hypofab_status decompose(information *info, hypofab_calibration_result *r
 
 /*
  * Variance of one normalised coordinate of a point about the curve. A point has one free coordinate less than it has
- * quantities: the one along the curve. The test has determined trace(H^-1 J^T J) parameters. Where distances in sequence
- * are correlated (the model misses the curve as a whole) points tell less than they were many: Bartlett's factor
- * (1 + r)/(1 - r).
+ * quantities: the one along the curve. The test has determined trace(H^-1 J^T J) parameters. Where distances in
+ * sequence are correlated (the model misses the curve as a whole) points tell less than they were many: Bartlett's
+ * factor (1 + r)/(1 - r).
  */
 static double variance_of(const residuals *r, int test, const double *value, const information *info, square own) {
   const plan *p = &r->plans[test];
@@ -133,8 +133,9 @@ static void name_bounds(const hypofab_calibration_problem *problem, hypofab_cali
     char name[NAME];
     unknown_name(problem, j, name, sizeof name);
     if (result->at_bound[j])
-      add_finding(result, "%s is at its %s bound %g: the data ask for a value beyond it, and its error is not estimated",
-                  name, result->at_bound[j] < 0 ? "lower" : "upper", result->at_bound[j] < 0 ? p->lower : p->upper);
+      add_finding(result,
+                  "%s is at its %s bound %g: the data ask for a value beyond it, and its error is not estimated", name,
+                  result->at_bound[j] < 0 ? "lower" : "upper", result->at_bound[j] < 0 ? p->lower : p->upper);
   }
 }
 
@@ -148,8 +149,10 @@ static void name_weak_parameters(const hypofab_calibration_problem *problem, con
     if (info->hessian[a][a] == 0.0)
       add_finding(result, "no test depends on %s: it stays where it started", name);
     else if (result->standard_error[j] > wide_share * range_near(p, result->value[j]))
-      add_finding(result, "the data hardly determine %s: its standard error %.3g is more than %.0f %% of the range "
-                  "between its bounds", name, result->standard_error[j], 100.0 * wide_share);
+      add_finding(result,
+                  "the data hardly determine %s: its standard error %.3g is more than %.0f %% of the range "
+                  "between its bounds",
+                  name, result->standard_error[j], 100.0 * wide_share);
   }
 }
 
@@ -160,9 +163,10 @@ static void name_weak_combinations(const hypofab_calibration_problem *problem, c
     double change[MOST], largest = 0.0, widest = 0.0;
     for (int a = 0; a < info->n; a++) {
       const int j = info->index[a];
-      change[a] = info->hessian[a][a] > 0.0
-                      ? result->eigenvector[k][j] * sqrt(variance / (fmax(result->eigenvalue[k], 1e-12) * info->hessian[a][a]))
-                      : 0.0;
+      change[a] =
+          info->hessian[a][a] > 0.0
+              ? result->eigenvector[k][j] * sqrt(variance / (fmax(result->eigenvalue[k], 1e-12) * info->hessian[a][a]))
+              : 0.0;
       largest = fmax(largest, fabs(result->eigenvector[k][j]));
       widest = fmax(widest, fabs(change[a]) / range_near(&problem->parameters[j], result->value[j]));
     }
@@ -179,8 +183,10 @@ static void name_weak_combinations(const hypofab_calibration_problem *problem, c
       named++;
     }
     if (named > 1)
-      add_finding(result, "a combination is hardly determined (eigenvalue %.1e): %.200s together change no curve beyond "
-                  "its errors", result->eigenvalue[k], text);
+      add_finding(result,
+                  "a combination is hardly determined (eigenvalue %.1e): %.200s together change no curve beyond "
+                  "its errors",
+                  result->eigenvalue[k], text);
   }
 }
 

@@ -74,8 +74,7 @@ static void differentiate_point(const residuals *r, int test, const foot *at, in
       along += slope[k] * at->direction[k];
     }
     if (at->is_end) along = 0.0;
-    for (int k = 0; k < axes; k++)
-      jacobian[k * n + j] = -r->factor[test] * (slope[k] - along * at->direction[k]);
+    for (int k = 0; k < axes; k++) jacobian[k * n + j] = -r->factor[test] * (slope[k] - along * at->direction[k]);
   }
 }
 

@@ -18,9 +18,9 @@ static const double bound_share = 1e-3;
 static const struct bounds {
   double lower, upper;
 } usual[HYPOFAB_N_PARAMETERS] = {
-    [PHI_C] = {20, 45},     [H_S] = {1e4, 1e8},   [N_EXPONENT] = {0.05, 0.8}, [E_D0] = {0.2, 1.0},
-    [E_C0] = {0.4, 1.6},    [E_I0] = {0.5, 2.0},  [ALPHA] = {0.01, 1.0},      [BETA] = {0.1, 5.0},
-    [M_R] = {1.0, 15.0},    [M_T] = {0.5, 10.0},  [R_SIZE] = {5e-6, 1e-3},    [BETA_R] = {0.02, 2.0},
+    [PHI_C] = {20, 45},  [H_S] = {1e4, 1e8},  [N_EXPONENT] = {0.05, 0.8}, [E_D0] = {0.2, 1.0},
+    [E_C0] = {0.4, 1.6}, [E_I0] = {0.5, 2.0}, [ALPHA] = {0.01, 1.0},      [BETA] = {0.1, 5.0},
+    [M_R] = {1.0, 15.0}, [M_T] = {0.5, 10.0}, [R_SIZE] = {5e-6, 1e-3},    [BETA_R] = {0.02, 2.0},
     [CHI] = {0.2, 20.0}};
 
 hypofab_status hypofab_calibration_bounds(int index, double kpa, double *lower, double *upper) {
@@ -84,8 +84,10 @@ static hypofab_status check_parameter(const hypofab_calibration_problem *problem
   char name[128];
   unknown_name(problem, j, name, sizeof name);
   if (!(isfinite(p->lower) && isfinite(p->upper) && p->lower < p->start && p->start < p->upper))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%s starts at %g between the bounds %g and %g; expected lower < start < "
-                        "upper", name, p->start, p->lower, p->upper);
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT,
+                        "%s starts at %g between the bounds %g and %g; expected lower < start < "
+                        "upper",
+                        name, p->start, p->lower, p->upper);
   if ((p->index == E_D0 && problem->ratio[0] > 0.0) || (p->index == E_I0 && problem->ratio[1] > 0.0))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%s is free and kept at a ratio to e_c0; expected one of both", name);
   for (int k = 0; k < j; k++)

@@ -26,6 +26,9 @@ int cmd_stiffness(int argc, char **argv);
 /** The parameter of the weight function that matches directional stiffnesses. */
 int cmd_fit_c(int argc, char **argv);
 
+/** Material parameters from laboratory tests. */
+int cmd_calibrate(int argc, char **argv);
+
 /** Changes of fabric between snapshots. */
 int cmd_changes(int argc, char **argv);
 /** All fabric and force descriptors of contact lists. */

@@ -24,6 +24,7 @@ static const struct command {
     {"directions", cmd_directions, "histogram of contact directions, for figures"},
     {"stiffness", cmd_stiffness, "directional stiffnesses of a deck, with the uncertainty of its fabrics"},
     {"fit-c", cmd_fit_c, "the c of the weight f(a) that matches given directional stiffnesses best"},
+    {"calibrate", cmd_calibrate, "material parameters from laboratory tests"},
     {"changes", cmd_changes, "contacts lost, gained and turned between snapshots, and the fabric they change"},
     {"describe", cmd_describe, "everything that the contacts of one sample, or of a series, tell of fabric and forces"},
     {"merge", cmd_merge, "fabric of a sample from the sums of its parts"},

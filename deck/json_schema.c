@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "deck/calibration_schema.h"
 #include "deck/schema.h"
 
 /* Texts that name something of the library: the key, and name number index (NULL past the last). */
@@ -69,14 +70,23 @@ static json_t *form_of(const cyaml_schema_value_t *schema, const char *key) {
   }
 }
 
-char *hypofab_deck_schema(void) {
-  json_t *form = mapping_form(&deck_schema);
-  json_t *whole = json_pack("{s:s,s:s,s:s}", "$schema", "https://json-schema.org/draft/2020-12/schema", "title",
-                            "hypofab deck", "description", "Element tests and response envelopes: docs/deck.md");
+static char *schema_text(const cyaml_schema_value_t *schema, const char *title, const char *description) {
+  json_t *form = mapping_form(schema);
+  json_t *whole = json_pack("{s:s,s:s,s:s}", "$schema", "https://json-schema.org/draft/2020-12/schema", "title", title,
+                            "description", description);
   char *text = NULL;
   if (form && whole && json_object_update(whole, form) == 0) text = json_dumps(whole, JSON_INDENT(1));
   json_decref(form);
   json_decref(whole);
-  if (!text) hypofab_fail(HYPOFAB_NO_MEMORY, "schema of decks: out of memory");
+  if (!text) hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", title);
   return text;
+}
+
+char *hypofab_deck_schema(void) {
+  return schema_text(&deck_schema, "hypofab deck", "Element tests and response envelopes: docs/deck.md");
+}
+
+char *hypofab_calibration_schema(void) {
+  return schema_text(&deck_calibration_schema, "hypofab calibration",
+                     "Parameters from laboratory tests: docs/calibration.md");
 }

@@ -4,8 +4,7 @@
 #include "base/message.h"
 #include "deck/study.h"
 
-/* Built-in sands are in kPa. */
-static double kpa_in(deck_unit unit) { return unit == DECK_PA ? 1e3 : unit == DECK_MPA ? 1e-3 : 1.0; }
+double deck_kpa(deck_unit unit) { return unit == DECK_PA ? 1e3 : unit == DECK_MPA ? 1e-3 : 1.0; }
 
 /* hypofab_material is its sixteen doubles in the order of hypofab_parameter_describe. */
 static double *parameter(hypofab_material *material, int index) { return (double *)material + index; }
@@ -14,6 +13,12 @@ static void convert_stresses(hypofab_material *material, double factor) {
   hypofab_parameter_info info;
   for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
     if (!hypofab_parameter_describe(i, &info) && strcmp(info.unit, "stress") == 0) *parameter(material, i) *= factor;
+}
+
+hypofab_status deck_sand(const char *name, deck_unit unit, hypofab_material *material) {
+  const hypofab_status status = hypofab_sand(name, material);
+  if (!status) convert_stresses(material, deck_kpa(unit)); /* built-in sands are in kPa */
+  return status;
 }
 
 static bool is_needed(const char *name, bool intergranular) {
@@ -66,11 +71,10 @@ static hypofab_status resolve_material(const hypofab_study *study, const deck_so
   const bool intergranular = !given->intergranular || *given->intergranular;
   hypofab_status status;
   if (given->sand) {
-    status = hypofab_sand(given->sand, material);
+    status = deck_sand(given->sand, study->unit, material);
     if (status == HYPOFAB_BAD_MATERIAL)
       return deck_refuse(source, status, deck_key_format("materials[%u].sand", index), "%s", hypofab_last_message());
     if (status) return status;
-    convert_stresses(material, kpa_in(study->unit));
   } else {
     status = start_without_sand(source, index, given, intergranular, material);
     if (status) return status;

@@ -203,6 +203,9 @@ typedef struct deck {
   unsigned envelopes_count;
 } deck;
 
+/** The keys of deck_parameters: the parameters of the model by name. */
+extern const cyaml_schema_field_t deck_parameter_fields[];
+
 /** Schema of a whole deck, for libcyaml and for deck_check_form (form.h). */
 extern const cyaml_schema_value_t deck_schema;
 

@@ -1,46 +1,16 @@
 #include "deck/study.h"
 
-#include <ctype.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/form.h"
-
-/* What libcyaml has to say, for the case that it refuses what deck_check_form let pass. */
-static void keep_log(cyaml_log_t level, void *context, const char *format, va_list arguments) {
-  (void)level;
-  char *text = context;
-  const size_t used = strlen(text);
-  vsnprintf(text + used, HYPOFAB_MESSAGE_SIZE / 2 - used, format, arguments);
-  for (char *c = text + used; *c; ++c)
-    if (isspace((unsigned char)*c)) *c = ' ';
-}
-
-static cyaml_config_t cyaml_configuration(char *log) {
-  return (cyaml_config_t){
-      .log_fn = log ? keep_log : NULL, .log_ctx = log, .mem_fn = cyaml_mem, .log_level = CYAML_LOG_ERROR};
-}
-
-static hypofab_status fill_deck(const deck_source *source, deck **filled) {
-  hypofab_status status = deck_check_form(source, &deck_schema);
-  if (status) return status;
-  char log[HYPOFAB_MESSAGE_SIZE / 2] = "";
-  const cyaml_config_t configuration = cyaml_configuration(log);
-  cyaml_data_t *data = NULL;
-  const cyaml_err_t error =
-      cyaml_load_data((const uint8_t *)source->text, source->length, &configuration, &deck_schema, &data, NULL);
-  if (error == CYAML_ERR_OOM) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
-  if (error || !data) return hypofab_fail(HYPOFAB_BAD_FILE, "%s: %s: %s", source->path, cyaml_strerror(error), log);
-  *filled = data;
-  return HYPOFAB_OK;
-}
+#include "deck/fill.h"
 
 static hypofab_status resolve(hypofab_study *study, const deck_source *source) {
-  hypofab_status status = fill_deck(source, &study->deck);
+  void *filled = NULL;
+  hypofab_status status = deck_fill(source, &deck_schema, &filled);
   if (status) return status;
+  study->deck = filled;
   const deck *deck = study->deck;
   study->unit = deck->unit ? (deck_unit)*deck->unit : DECK_KPA;
   study->sign = deck->sign ? (deck_sign)*deck->sign : DECK_TENSION_POSITIVE;
@@ -118,8 +88,7 @@ void hypofab_study_free(hypofab_study *study) {
   free(study->envelopes);
   free(study->states);
   free(study->materials);
-  const cyaml_config_t configuration = cyaml_configuration(NULL);
-  if (study->deck) cyaml_free(&configuration, &deck_schema, study->deck, 0);
+  deck_release(&deck_schema, study->deck);
   free(study->path);
   free(study);
 }

@@ -105,6 +105,12 @@ hypofab_status study_resolve_states(hypofab_study *study, const deck_source *sou
 hypofab_status study_resolve_tests(hypofab_study *study, const deck_source *source);
 hypofab_status study_resolve_envelopes(hypofab_study *study, const deck_source *source);
 
+/** Parameters of a built-in sand in a deck's unit of stress; HYPOFAB_BAD_MATERIAL. */
+hypofab_status deck_sand(const char *name, deck_unit unit, hypofab_material *material);
+
+/** One kPa in a deck's unit of stress. */
+double deck_kpa(deck_unit unit);
+
 /** Is the name of entry number index of "tests" or "envelopes" fit for a file, and its own among all of both? */
 hypofab_status study_check_name(const hypofab_study *study, const deck_source *source, const char *list,
                                 unsigned index);

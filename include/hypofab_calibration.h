@@ -61,9 +61,9 @@ typedef struct hypofab_laboratory_test {
   double quantity[HYPOFAB_N_LAB]; /**< weight of each quantity; 0: not compared. All zero: what the kind compares */
   int drive;                      /**< 1 + the quantity that is followed from reversal to reversal; default: sigma1, p,
                                        eps1, in cyclic tests q */
-  double reversal;                /**< a reversal is a return by more than this share of the drive's range; default 0.05,
-                                       cyclic 0.25 */
-  int points;                     /**< rows compared, evenly spaced along the curve; default 60 */
+  double reversal; /**< a reversal is a return by more than this share of the drive's range; default 0.05,
+                        cyclic 0.25 */
+  int points;      /**< rows compared, evenly spaced along the curve; default 60 */
 } hypofab_laboratory_test;
 
 /** A quantity to be found: a material parameter, or the void ratio at the start of one test. */
@@ -107,20 +107,20 @@ enum { HYPOFAB_FINDING_SIZE = 320, HYPOFAB_MAX_FINDINGS = 64 };
 
 /** Outcome of a calibration. Numbers of parameters are in the order of the problem. */
 typedef struct hypofab_calibration_result {
-  hypofab_material material;                                  /**< found */
-  double value[HYPOFAB_MAX_FREE];                             /**< found */
-  double standard_error[HYPOFAB_MAX_FREE];                    /**< NaN where the data determine nothing */
-  double covariance[HYPOFAB_MAX_FREE][HYPOFAB_MAX_FREE];      /**< of the values */
-  double correlation[HYPOFAB_MAX_FREE][HYPOFAB_MAX_FREE];     /**< of the values */
-  double eigenvalue[HYPOFAB_MAX_FREE];                        /**< of the Hessian with unit diagonal, smallest first */
-  double eigenvector[HYPOFAB_MAX_FREE][HYPOFAB_MAX_FREE];     /**< [k]: of eigenvalue k, unit length */
-  int at_bound[HYPOFAB_MAX_FREE];                             /**< -1: at its lower bound; 1: at its upper; else 0 */
-  double distance, start_distance;                            /**< weighted root-mean-square distance, found and before */
-  int converged;                                              /**< 0: the most iterations were made */
-  int iterations, fits;                                       /**< of the best fit; number of fits */
-  double fit_distance[32];                                    /**< of each of the first fits */
-  long runs;                                                  /**< element tests computed, in all */
-  double seconds;                                             /**< wall clock */
+  hypofab_material material;                              /**< found */
+  double value[HYPOFAB_MAX_FREE];                         /**< found */
+  double standard_error[HYPOFAB_MAX_FREE];                /**< NaN where the data determine nothing */
+  double covariance[HYPOFAB_MAX_FREE][HYPOFAB_MAX_FREE];  /**< of the values */
+  double correlation[HYPOFAB_MAX_FREE][HYPOFAB_MAX_FREE]; /**< of the values */
+  double eigenvalue[HYPOFAB_MAX_FREE];                    /**< of the Hessian with unit diagonal, smallest first */
+  double eigenvector[HYPOFAB_MAX_FREE][HYPOFAB_MAX_FREE]; /**< [k]: of eigenvalue k, unit length */
+  int at_bound[HYPOFAB_MAX_FREE];                         /**< -1: at its lower bound; 1: at its upper; else 0 */
+  double distance, start_distance;                        /**< weighted root-mean-square distance, found and before */
+  int converged;                                          /**< 0: the most iterations were made */
+  int iterations, fits;                                   /**< of the best fit; number of fits */
+  double fit_distance[32];                                /**< of each of the first fits */
+  long runs;                                              /**< element tests computed, in all */
+  double seconds;                                         /**< wall clock */
   int n_findings;
   char findings[HYPOFAB_MAX_FINDINGS][HYPOFAB_FINDING_SIZE]; /**< what the data cannot determine, in words */
 } hypofab_calibration_result;
@@ -200,5 +200,52 @@ typedef struct hypofab_direct_estimate {
  */
 hypofab_status hypofab_estimate_directly(const hypofab_index_tests *index, int n_tests,
                                          const hypofab_laboratory_test *tests, hypofab_direct_estimate *estimate);
+
+/* --------------------------------------------------------- calibration files */
+
+/** A validated calibration file with its measured data: docs/calibration.md. */
+typedef struct hypofab_calibration hypofab_calibration;
+
+/**
+ * @brief Read and validate a calibration file and the CSV files it names (relative to it).
+ * @param path        YAML file
+ * @param calibration set to a new calibration, to be freed with hypofab_calibration_free; NULL on failure
+ * @return HYPOFAB_BAD_FILE and others below 200; the message names file, line, key, value and what was expected
+ */
+hypofab_status hypofab_calibration_load(const char *path, hypofab_calibration **calibration);
+
+/** The same for `length` bytes of text; path names it in messages, and its folder is that of the paths in it. */
+hypofab_status hypofab_calibration_parse(const char *text, size_t length, const char *path,
+                                         hypofab_calibration **calibration);
+
+/** Free a calibration; NULL is allowed. */
+void hypofab_calibration_free(hypofab_calibration *calibration);
+
+/** The JSON Schema of calibration files, for editors: a text to be freed with free(); NULL when memory is short. */
+char *hypofab_calibration_schema(void);
+
+/** Name of free parameter number index: "h_s", "e(TEST)"; NULL past the last one. The text is the calibration's. */
+const char *hypofab_calibration_parameter_name(const hypofab_calibration *calibration, int index);
+
+/** What hypofab_calibrate works on: the tests that are fitted, and the starts of the free parameters. */
+const hypofab_calibration_problem *hypofab_calibration_problem_of(const hypofab_calibration *calibration);
+
+/** The options of the file. */
+const hypofab_calibration_options *hypofab_calibration_options_of(const hypofab_calibration *calibration);
+
+/**
+ * @brief Fit, and keep the result.
+ * @return as hypofab_calibrate
+ */
+hypofab_status hypofab_calibration_run(hypofab_calibration *calibration, hypofab_progress progress, void *user);
+
+/** The result of the last run; NULL before it. */
+const hypofab_calibration_result *hypofab_calibration_result_of(const hypofab_calibration *calibration);
+
+/** The report of the last run as JSON, to be freed with free(); NULL when memory is short or nothing was run. */
+char *hypofab_calibration_report(const hypofab_calibration *calibration);
+
+/** Write DIRECTORY/calibration.json and calibration.md, whole or not at all; HYPOFAB_IO_ERROR. */
+hypofab_status hypofab_calibration_write(const hypofab_calibration *calibration, const char *directory);
 
 #endif

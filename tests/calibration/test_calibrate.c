@@ -1,0 +1,258 @@
+/* Calibration on tests whose parameters are known: recovery, standard errors, findings, failures. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* clang-format off */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include "synthetic.h"
+
+enum {
+  PHI_C = 0,
+  H_S = 2,
+  N_EXPONENT = 3,
+  E_D0 = 4,
+  E_C0 = 5,
+  ALPHA = 7,
+  BETA = 8,
+  M_R = 9,
+  M_T = 10,
+  R_SIZE = 11,
+  CHI = 13
+};
+
+static hypofab_material sand_of(const char *name) {
+  hypofab_material sand;
+  assert_int_equal(hypofab_sand(name, &sand), HYPOFAB_OK);
+  return sand;
+}
+
+static double parameter(const hypofab_material *material, int index) { return ((const double *)material)[index]; }
+
+/* A free parameter that starts `factor` times its value. */
+static hypofab_free_parameter free_one(const hypofab_material *sand, int index, double factor) {
+  hypofab_free_parameter p = {.index = index, .start = factor * parameter(sand, index)};
+  assert_int_equal(hypofab_calibration_bounds(index, 1.0, &p.lower, &p.upper), HYPOFAB_OK);
+  return p;
+}
+
+static hypofab_calibration_result result;
+
+static void calibrate(const hypofab_calibration_problem *problem, const hypofab_calibration_options *options) {
+  if (hypofab_calibrate(problem, options, NULL, NULL, &result)) fail_msg("%s", hypofab_last_message());
+  assert_true(result.converged);
+}
+
+static int is_found(const char *words) {
+  for (int i = 0; i < result.n_findings; i++)
+    if (strstr(result.findings[i], words)) return 1;
+  return 0;
+}
+
+/* Without noise: what is left is the chord of the computed curve between its rows. */
+static void parameters_are_recovered(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_oedometer(&data, 0, &sand, 0.85);
+  synthetic_triaxial(&data, 1, &sand, 0.65, 100, 0.12, 0);
+  synthetic_triaxial(&data, 2, &sand, 0.80, 200, 0.12, 0);
+  const hypofab_free_parameter parameters[] = {free_one(&sand, PHI_C, 1.05), free_one(&sand, H_S, 2.0),
+                                               free_one(&sand, N_EXPONENT, 1.2), free_one(&sand, ALPHA, 0.6),
+                                               free_one(&sand, BETA, 1.7)};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 3, .tests = data.tests, .n_parameters = 5, .parameters = parameters};
+  calibrate(&problem, NULL);
+  assert_true(result.distance < 1.5e-3 && result.start_distance > 0.03);
+  for (int j = 0; j < 5; j++) {
+    const double error = log(result.value[j] / parameter(&sand, parameters[j].index));
+    if (fabs(error) > (parameters[j].index == H_S ? 0.1 : 0.01)) fail_msg("parameter %d: error %g", j, error);
+  }
+  assert_true(result.material.phi_c == result.value[0] && result.material.e_c0 == sand.e_c0);
+}
+
+/* Small cycles tell the intergranular strain. */
+static void intergranular_parameters_are_recovered_from_a_loop(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten");
+  synthetic_triaxial(&data, 0, &sand, 0.7, 100, 0.01, 20);
+  const hypofab_free_parameter parameters[] = {free_one(&sand, M_R, 0.8), free_one(&sand, R_SIZE, 1.4)};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 2, .parameters = parameters};
+  calibrate(&problem, NULL);
+  assert_true(fabs(result.value[0] / sand.m_R - 1) < 0.02);
+  assert_true(fabs(result.value[1] / sand.R - 1) < 0.03);
+}
+
+/* The void ratio at the start is a number like any other. */
+static void a_void_ratio_is_found(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_triaxial(&data, 0, &sand, 0.71, 100, 0.1, 0);
+  data.tests[0].void_ratio = 0.8;
+  const hypofab_free_parameter parameters[] = {{.index = -1, .test = 0, .start = 0.8, .lower = 0.6, .upper = 0.9}};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 1, .parameters = parameters};
+  calibrate(&problem, NULL);
+  assert_true(fabs(result.value[0] - 0.71) < 1e-4);
+}
+
+/* A small Monte Carlo: 95 % intervals hold the truth about as often as they say, whatever the weights of the tests. */
+static void standard_errors_are_right(void **state) {
+  (void)state;
+  enum { SAMPLES = 30, N = 3 };
+  static synthetic clean, data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_oedometer(&clean, 0, &sand, 0.85);
+  synthetic_triaxial(&clean, 1, &sand, 0.65, 100, 0.12, 0);
+  const hypofab_free_parameter parameters[] = {free_one(&sand, PHI_C, 1.001), free_one(&sand, H_S, 1.05),
+                                               free_one(&sand, ALPHA, 0.98)};
+  const hypofab_calibration_options options = {.tolerance = 1e-6};
+  double squares = 0.0;
+  int inside = 0;
+  for (int sample = 0; sample < SAMPLES; sample++) {
+    data = clean;
+    for (int t = 0; t < 2; t++)
+      for (int q = 0; q < HYPOFAB_N_LAB; q++)
+        if (clean.tests[t].measured[q]) data.tests[t].measured[q] = data.value[t][q];
+    data.tests[1].weight = 3.0;
+    synthetic_add_noise(&data, 2, 0.01, 1000 + (unsigned long)sample);
+    const hypofab_calibration_problem problem = {
+        .material = sand, .n_tests = 2, .tests = data.tests, .n_parameters = N, .parameters = parameters};
+    calibrate(&problem, &options);
+    for (int j = 0; j < N; j++) {
+      const double z = (result.value[j] - parameter(&sand, parameters[j].index)) / result.standard_error[j];
+      squares += z * z / (SAMPLES * N);
+      inside += fabs(z) < 1.96;
+    }
+  }
+  if (inside < 78 || squares < 0.6 || squares > 1.5)
+    fail_msg("%d of %d inside 1.96 standard errors, mean square %g", inside, SAMPLES * N, squares);
+}
+
+static void what_the_data_cannot_tell_is_said(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_oedometer(&data, 0, &sand, 0.85);
+  synthetic_add_noise(&data, 1, 0.005, 7);
+  const hypofab_free_parameter three[] = {free_one(&sand, H_S, 1.3), free_one(&sand, BETA, 1.2),
+                                          free_one(&sand, CHI, 1.0)};
+  hypofab_free_parameter chi = three[2];
+  chi.start = 5;
+  const hypofab_free_parameter parameters[] = {three[0], three[1], chi};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 3, .parameters = parameters};
+  calibrate(&problem, NULL);
+  assert_true(is_found("no test depends on chi"));
+  assert_true(is_found("h_s") && is_found("beta"));
+  assert_true(fabs(result.correlation[0][1]) > 0.95 && is_found("correlated"));
+  assert_true(fabs(result.value[2] - 5) < 1e-9);
+  /* A bound that keeps the fit from the truth is named, and no error is stated for it. */
+  hypofab_free_parameter low = free_one(&sand, H_S, 1.0);
+  low.upper = 0.5 * sand.h_s, low.start = 0.2 * sand.h_s;
+  const hypofab_calibration_problem bounded = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 1, .parameters = &low};
+  calibrate(&bounded, NULL);
+  assert_true(result.at_bound[0] == 1 && isnan(result.standard_error[0]) && is_found("upper bound"));
+}
+
+/* Where a test cannot begin (e_d0 above e_c0) it counts as far off, and the fit finds its way back. */
+static void what_cannot_be_computed_does_not_end_the_fit(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_triaxial(&data, 0, &sand, 0.8, 100, 0.12, 0);
+  synthetic_triaxial(&data, 1, &sand, 0.65, 100, 0.12, 0);
+  hypofab_free_parameter e_d0 = free_one(&sand, E_D0, 1.1), e_c0 = free_one(&sand, E_C0, 1.1);
+  e_d0.upper = 1.0, e_c0.lower = 0.6; /* they overlap */
+  const hypofab_free_parameter parameters[] = {e_d0, e_c0};
+  const hypofab_calibration_problem problem = {.material = sand,
+                                               .ratio = {0.0, 1.1},
+                                               .n_tests = 2,
+                                               .tests = data.tests,
+                                               .n_parameters = 2,
+                                               .parameters = parameters};
+  double distance, of_tests[2];
+  const double impossible[2] = {0.9, 0.7};
+  assert_int_equal(hypofab_calibration_distance(&problem, NULL, impossible, &distance, of_tests), HYPOFAB_OK);
+  assert_true(fabs(of_tests[0] - 3) < 1e-12 && fabs(of_tests[1] - 3) < 1e-12 && fabs(distance - 3) < 1e-12);
+  calibrate(&problem, NULL);
+  assert_true(fabs(result.value[0] / sand.e_d0 - 1) < 0.02 && fabs(result.value[1] / sand.e_c0 - 1) < 0.02);
+  /* From an impossible start there is no way: the fit ends where it began, and says how far off that is. */
+  const hypofab_free_parameter lost[] = {{E_D0, 0, 0.9, e_d0.lower, 1.0}, {E_C0, 0, 0.7, 0.6, e_c0.upper}};
+  const hypofab_calibration_problem hopeless = {
+      .material = sand, .ratio = {0.0, 1.1}, .n_tests = 2, .tests = data.tests, .n_parameters = 2, .parameters = lost};
+  assert_int_equal(hypofab_calibrate(&hopeless, NULL, NULL, NULL, &result), HYPOFAB_OK);
+  assert_true(fabs(result.distance - 3) < 1e-12 && is_found("no test depends on e_d0"));
+  /* Other starts find it. */
+  assert_int_equal(hypofab_calibrate(&hopeless, &(hypofab_calibration_options){.starts = 4}, NULL, NULL, &result),
+                   HYPOFAB_OK);
+  assert_true(result.distance < 0.01 && result.fits == 4 && result.fit_distance[0] > 2.9);
+}
+
+static int stop_at_once(const char *what, double fraction, void *user) {
+  (void)what;
+  (void)fraction;
+  ++*(int *)user;
+  return 1;
+}
+
+static void it_can_be_interrupted(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_triaxial(&data, 0, &sand, 0.65, 100, 0.12, 0);
+  const hypofab_free_parameter parameters[] = {free_one(&sand, ALPHA, 0.6)};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 1, .parameters = parameters};
+  int calls = 0;
+  assert_int_equal(hypofab_calibrate(&problem, NULL, stop_at_once, &calls, &result), HYPOFAB_INTERRUPTED);
+  assert_int_equal(calls, 1);
+  assert_true(result.value[0] > 0.0 && result.distance <= result.start_distance);
+}
+
+static void nonsense_is_refused(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("hochstetten_1999");
+  synthetic_triaxial(&data, 0, &sand, 0.65, 100, 0.12, 0);
+  hypofab_free_parameter parameters[] = {free_one(&sand, ALPHA, 0.6), free_one(&sand, BETA, 1.0)};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 2, .parameters = parameters};
+  const struct {
+    double start;
+    int index;
+    const char *words;
+  } cases[] = {
+      {9, BETA, "expected lower < start < upper"}, {0.3, ALPHA, "alpha is free twice"}, {1, 15, "cannot be free"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    parameters[1].start = cases[i].start, parameters[1].index = cases[i].index;
+    assert_int_equal(hypofab_calibrate(&problem, NULL, NULL, NULL, &result), HYPOFAB_BAD_ARGUMENT);
+    if (!strstr(hypofab_last_message(), cases[i].words)) fail_msg("%s", hypofab_last_message());
+  }
+  parameters[1] = free_one(&sand, BETA, 1.0);
+  data.value[0][HYPOFAB_LAB_Q][5] = NAN;
+  assert_int_equal(hypofab_calibrate(&problem, NULL, NULL, NULL, &result), HYPOFAB_BAD_ARGUMENT);
+  assert_non_null(strstr(hypofab_last_message(), "row 6: q"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(parameters_are_recovered),
+                                     cmocka_unit_test(intergranular_parameters_are_recovered_from_a_loop),
+                                     cmocka_unit_test(a_void_ratio_is_found),
+                                     cmocka_unit_test(standard_errors_are_right),
+                                     cmocka_unit_test(what_the_data_cannot_tell_is_said),
+                                     cmocka_unit_test(what_cannot_be_computed_does_not_end_the_fit),
+                                     cmocka_unit_test(it_can_be_interrupted),
+                                     cmocka_unit_test(nonsense_is_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
