@@ -42,4 +42,33 @@ void curve_run(const hypofab_calibration_problem *problem, const plan *p, int te
 long curve_run_with_gradient(const hypofab_calibration_problem *problem, const plan *p, int test, const double *values,
                              const hypofab_calibration_options *options, curve *c);
 
+/** Which output quantity a laboratory quantity is, and its sign. */
+typedef struct curve_quantity {
+  hypofab_quantity quantity;
+  double sign;
+} curve_quantity;
+
+extern const curve_quantity curve_quantities[HYPOFAB_N_LAB];
+
+/** Derivatives of the coordinates of a vertex by a parameter. */
+double *curve_gradient_at(const curve *c, int vertex, int parameter);
+
+/** Direction of the intergranular strain at the start, of unit length; 0 without any. */
+void curve_delta_direction(const plan *p, double direction[6]);
+
+/** State at the start of a test. */
+hypofab_state curve_start(const plan *p, const hypofab_material *material, double void_ratio);
+
+/** Options of the element test. */
+hypofab_test_options curve_options(const hypofab_calibration_options *options);
+
+/**
+ * @brief Add a row to a curve, at the place that its step and number give it.
+ *
+ * So curves of different parameters can be compared vertex by vertex. Where a quantity goes back on its way to a value
+ * the integrator may deliver a row less or more.
+ * @return 0: the row has no coordinates
+ */
+int curve_place(const plan *p, const hypofab_row *row, curve *c);
+
 #endif

@@ -51,11 +51,19 @@ static double cost_of(gsl_multifit_nlinear_workspace *w) {
   return cost;
 }
 
+/* Is every derivative zero? GSL's QR decomposition does not take that. */
+static int is_flat(gsl_multifit_nlinear_workspace *w) {
+  double lowest, highest;
+  gsl_matrix_minmax(gsl_multifit_nlinear_jac(w), &lowest, &highest);
+  return lowest == 0.0 && highest == 0.0;
+}
+
 static hypofab_status iterate(gsl_multifit_nlinear_workspace *w, int max_iterations, const fit_watch *watch,
                               fit_outcome *outcome) {
   int slow = 0;
   outcome->cost = cost_of(w);
   while (outcome->iterations < max_iterations && slow < SLOW_ITERATIONS) {
+    if (is_flat(w)) return HYPOFAB_OK; /* no test can begin here, and nothing tells which way to go */
     const int result = gsl_multifit_nlinear_iterate(w);
     if (result == GSL_ENOMEM) return hypofab_fail(HYPOFAB_NO_MEMORY, "calibration: out of memory");
     outcome->iterations++;

@@ -199,6 +199,37 @@ static void what_cannot_be_computed_does_not_end_the_fit(void **state) {
   assert_true(result.distance < 0.01 && result.fits == 4 && result.fit_distance[0] > 2.9);
 }
 
+/* Exact derivatives and central differences lead to the same place, and say the same of its surroundings. */
+static void exact_derivatives_agree_with_differences(void **state) {
+  (void)state;
+  static synthetic data;
+  static hypofab_calibration_result exact;
+  const hypofab_material sand = sand_of("hochstetten");
+  synthetic_oedometer(&data, 0, &sand, 0.85);
+  synthetic_triaxial(&data, 1, &sand, 0.7, 100, 0.02, 20);
+  synthetic_add_noise(&data, 2, 0.01, 3);
+  const hypofab_free_parameter parameters[] = {free_one(&sand, PHI_C, 1.02),
+                                               free_one(&sand, H_S, 1.3),
+                                               free_one(&sand, R_SIZE, 1.2),
+                                               {.index = -1, .test = 1, .start = 0.72, .lower = 0.6, .upper = 0.8}};
+  const hypofab_calibration_problem problem = {.material = sand,
+                                               .ratio = {0.58, 1.11},
+                                               .n_tests = 2,
+                                               .tests = data.tests,
+                                               .n_parameters = 4,
+                                               .parameters = parameters};
+  calibrate(&problem, &(hypofab_calibration_options){.tolerance = 1e-9});
+  exact = result;
+  calibrate(&problem, &(hypofab_calibration_options){.tolerance = 1e-9, .derivatives = HYPOFAB_DIFFERENCES});
+  assert_true(exact.runs < result.runs / 2);
+  assert_true(fabs(exact.distance / result.distance - 1) < 1e-6);
+  for (int j = 0; j < 4; j++) {
+    assert_true(fabs(exact.value[j] - result.value[j]) < 0.02 * result.standard_error[j]);
+    if (fabs(exact.standard_error[j] / result.standard_error[j] - 1) > 2e-3)
+      fail_msg("standard errors of parameter %d: %g, %g", j, exact.standard_error[j], result.standard_error[j]);
+  }
+}
+
 static int stop_at_once(const char *what, double fraction, void *user) {
   (void)what;
   (void)fraction;
@@ -252,6 +283,7 @@ int main(void) {
                                      cmocka_unit_test(standard_errors_are_right),
                                      cmocka_unit_test(what_the_data_cannot_tell_is_said),
                                      cmocka_unit_test(what_cannot_be_computed_does_not_end_the_fit),
+                                     cmocka_unit_test(exact_derivatives_agree_with_differences),
                                      cmocka_unit_test(it_can_be_interrupted),
                                      cmocka_unit_test(nonsense_is_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
