@@ -11,7 +11,7 @@ module umat_influence
   use umat_lobatto, only: lobatto_type, most_nodes
   use umat_material, only: material_type
   use umat_status, only: branch_plain, branch_reversal
-  use umat_tensor, only: ddot, multiplicity, unit_tensor
+  use umat_tensor, only: ddot, deviator, norm, multiplicity, unit_tensor
   use umat_variation, only: linear_rate_type, linear_rate, operand_influence_type, operand_influence, direct_parts, &
                             part_d, part_normal, part_that, part_unit
   use umat_wolffersdorff, only: hypoplastic_type, sensitivities
@@ -40,7 +40,7 @@ module umat_influence
   !> A pivot of the nodes' system is near 1; below this the step is too long.
   real(wp), parameter :: least_pivot = 0.1_wp
   !> Part of the tolerance for what the nodes leave out.
-  real(wp), parameter :: share = 0.1_wp
+  real(wp), parameter :: share = 0.5_wp
 
 contains
 
@@ -89,7 +89,8 @@ contains
     left = max(0.0_wp, leg%length - before - nodes%length(n))
     size = size_of(at_end) + left / nodes%strain(n) * size_of(rate)
     call decay([mode_size(0), mode_size(1), mode_size(2)], highest, ratio)
-    error = highest * ratio**n / (share * size) ! the rule misses mode 2 n
+    ! The rule misses mode 2 n of the rates.
+    error = (highest * ratio**n / size + turn_missed(n, rates%that(:, 0), rates%that(:, n))) / share
     influence%on_stress = at_end + (end - 1.0_wp) * rate
     influence%integral = influence%integral + dot_product(rule%a(:n, n), slope(:n)) + (end - 1.0_wp) * slope(n)
 
@@ -144,6 +145,21 @@ contains
     end function mode_size
 
   end subroutine influence_step
+
+  !> What the nodes miss where T*hat turns within the step, relative.
+  !>
+  !> F has a cone at T*hat = 0. On a path past it the derivative of F turns like an angle seen from a passing point, which has a
+  !> pole beside the step; the share of that derivative in the influence is the change of That.
+  pure function turn_missed(n, start, end) result(missed)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: start(6), end(6)
+    real(wp) :: missed
+    real(wp) :: change, distance
+    change = norm(end - start)
+    distance = norm(deviator(start)) + norm(deviator(end))
+    missed = 0.0_wp
+    if (change > 0.0_wp) missed = change * (change / (distance + change))**(2 * n)
+  end function turn_missed
 
   !> How the other terms of the rates at the nodes come to the influence at the nodes, the diagonal term being taken care of:
   !> weight(k, j) from node k to node j. Solves weight(k, j) = a(k, j) + sum_i a(i, j) diagonal_i weight(k, i), i > 0;

@@ -37,7 +37,7 @@ module umat_integration
   real(wp), parameter :: smallest_step = 1.0e-10_wp
   !> First step tried, at the default tolerance: this part of R, in which delta turns. Where the stress changes too much the
   !> prediction shortens it.
-  real(wp), parameter :: step_of_R = 0.6_wp, step_with_tangent = 0.35_wp
+  real(wp), parameter :: step_of_R = 0.6_wp, step_with_tangent = 0.5_wp
   !> With the tangent, the rule of three nodes is tried first up to this part of R, or this strain of the plain model.
   real(wp), parameter :: few_nodes_of_R = 0.015_wp, few_nodes_plain = 1.0e-6_wp
 
