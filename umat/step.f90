@@ -41,11 +41,11 @@ module umat_step
   integer, parameter :: most_trials = 12, most_interpolations = 3
   !> Part of -tr(T - p_t 1) below which the size of the stress says nothing; below 1/sqrt(3), so that it acts with p_t alone.
   real(wp), parameter :: part_of_pressure = 0.5_wp
-  !> A step whose prediction asks for less than this part of it is not tried; one that needs more sweeps is shortened to
-  !> this part.
-  real(wp), parameter :: worth_trying = 0.7_wp, too_many_sweeps = 0.4_wp
   !> Bounds of the change of a step, and the part of it that is taken.
   real(wp), parameter :: least_growth = 0.1_wp, most_growth = 5.0_wp, safety = 0.9_wp
+  !> A step whose prediction asks for less than this part of it is not tried: sweeps hardly change what the nodes leave out.
+  !> One that needs more sweeps is shortened to the other part.
+  real(wp), parameter :: worth_trying = safety, too_many_sweeps = 0.4_wp
   !> Steps below this part of the leg are accepted whatever the error of the tangent: where the stress nearly vanishes its
   !> derivative has no bound, and the stress must not fail for that.
   real(wp), parameter :: tangent_gives_way = 1.0e-8_wp
@@ -160,9 +160,7 @@ contains
       return
     end if
     growth = growth_after(missing, theta, tolerance, n)
-    ! Sweeps would hardly change what the nodes leave out.
-    if (missing > tolerance) growth = min(growth, 0.9_wp)
-    if (growth < worth_trying .or. missing > tolerance) return
+    if (growth < worth_trying) return
 
     call sweeps(m, leg, step, by_stress, tensors, f, u, left, growth)
     if (growth < 1.0_wp) return
