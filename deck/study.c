@@ -101,6 +101,10 @@ const char *hypofab_study_test_name(const hypofab_study *study, int index) {
   return index >= 0 && index < hypofab_study_test_count(study) ? study->deck->tests[index].name : NULL;
 }
 
+int hypofab_study_test_state(const hypofab_study *study, int index) {
+  return hypofab_study_test_name(study, index) ? (int)study->tests[index].state : -1;
+}
+
 const char *hypofab_study_envelope_name(const hypofab_study *study, int index) {
   return index >= 0 && index < hypofab_study_envelope_count(study) ? study->deck->envelopes[index].name : NULL;
 }

@@ -42,6 +42,9 @@ const char *hypofab_study_test_name(const hypofab_study *study, int index);
 const char *hypofab_study_envelope_name(const hypofab_study *study, int index);
 const char *hypofab_study_state_name(const hypofab_study *study, int index);
 
+/** Number of the state that test number index starts from; -1 past the last test. */
+int hypofab_study_test_state(const hypofab_study *study, int index);
+
 /** State number index of a study and its material, tension positive, in the deck's unit of stress. */
 hypofab_status hypofab_study_state(const hypofab_study *study, int index, hypofab_material *material,
                                    hypofab_state *state);

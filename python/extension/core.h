@@ -68,6 +68,7 @@ void core_study_free(long long handle);
 void core_study_size(long long handle, int *counts);
 void core_study_name(long long handle, int list, int index, char *text, size_t size);
 void core_study_unit(long long handle, char *text, size_t size);
+int core_study_test_state(long long handle, int index);
 int core_study_state(long long handle, int index, double *material, double *state);
 int core_study_test_run(long long handle, int index, int *stop, long long *rows, long long *report);
 void core_rows_take(long long rows, int n, int width, double *values);

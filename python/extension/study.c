@@ -57,6 +57,8 @@ void core_study_unit(long long handle, char *text, size_t size) {
   core_text(hypofab_study_unit(study_of(handle)), text, size);
 }
 
+int core_study_test_state(long long handle, int index) { return hypofab_study_test_state(study_of(handle), index); }
+
 int core_study_state(long long handle, int index, double *material, double *state) {
   hypofab_material m;
   hypofab_state s;

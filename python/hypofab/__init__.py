@@ -20,6 +20,7 @@ _HOMES = {
         *("Branch", "Increment", "LinearParts", "Points", "Rate", "State"),
         *("linear_parts", "rate", "update", "update_many"),
     ),
+    "plots": ("plot", "plot_envelopes", "plot_fabrics"),
     "probing": (
         *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability"),
         "triangles",

@@ -34,6 +34,9 @@ from hypofab.model import linear_parts as linear_parts
 from hypofab.model import rate as rate
 from hypofab.model import update as update
 from hypofab.model import update_many as update_many
+from hypofab.plots import plot as plot
+from hypofab.plots import plot_envelopes as plot_envelopes
+from hypofab.plots import plot_fabrics as plot_fabrics
 from hypofab.probing import Ellipsoid as Ellipsoid
 from hypofab.probing import Probes as Probes
 from hypofab.probing import Stability as Stability

@@ -15,6 +15,7 @@ from hypofab import (
     fabric_command,
     figures,
     papers,
+    path_figures,
     probe_surfaces,
     stability_figures,
     stiffness,
@@ -24,6 +25,7 @@ from hypofab.errors import HypofabError, InputError
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
 from hypofab.launch import packaged_program
+from hypofab.measured import read_measured
 from hypofab.probes import has_probes, is_classical, read_probes
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
 
@@ -57,9 +59,14 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
     if has_tests:
         run = read_run(directory)
         zoom = None if options.zoom is None else options.zoom / 100
-        save(figures.stress_strain(run, zoom=zoom), directory / "stress_strain")
-        save(figures.volumetric(run, compression_positive=options.compression_positive), directory / "volumetric")
-        save(figures.stress_path(run), directory / "stress_path")
+        data = {"measured": read_measured(dict(options.measured))}
+        positive = options.compression_positive
+        save(figures.stress_strain(run, zoom=zoom, **data), directory / "stress_strain")
+        save(figures.volumetric(run, compression_positive=positive, **data), directory / "volumetric")
+        save(figures.stress_path(run, **data), directory / "stress_path")
+        save(path_figures.compression(run, **data), directory / "compression")
+        if any(test.cycle.any() for test in run.tests):
+            save(path_figures.loops(run, **data), directory / "loops")
         tests = [test for test in stability_figures.read_stability(directory) if len(test.eps_q) > 2]
         if tests:
             save(stability_figures.figure(tests), directory / "stability")
@@ -93,6 +100,14 @@ def parser() -> argparse.ArgumentParser:
     draw.add_argument("directories", nargs="+", metavar="DIR", type=Path, help="results of hypofab run or envelope")
     draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
+    draw.add_argument(
+        "--measured",
+        nargs="+",
+        default=(),
+        metavar="[LABEL=]FILE",
+        type=labelled_directory,
+        help="CSV of measured tests to draw over: columns eps_q (or eps_1), q, eps_v, p, void_ratio",
+    )
 
     fabric_command.add_parser(commands)
     sweep_command.add_parser(commands)

@@ -35,7 +35,11 @@ class Accumulation:
 def accumulation(path: Path, quantity: str) -> Accumulation | None:
     """The cycles of one result file of `hypofab run`, of the last step that has any; None when none has."""
     table = read_columns(path)
-    cycle, step, values = (read_numbers(path, table, name) for name in ("cycle", "step", quantity))
+    return accumulation_of(path.stem, *(read_numbers(path, table, name) for name in ("cycle", "step", quantity)))
+
+
+def accumulation_of(name: str, cycle: Array, step: Array, values: Array) -> Accumulation | None:
+    """The cycles of one test from columns of its rows."""
     cyclic = step[cycle > 0]
     if cyclic.size == 0:
         return None
@@ -48,7 +52,7 @@ def accumulation(path: Path, quantity: str) -> Accumulation | None:
     if not whole:
         return None
     return Accumulation(
-        path.stem,
+        name,
         np.array(whole),
         np.array([half[number - 0.5] for number in whole]),
         np.array([half[number] for number in whole]),

@@ -10,7 +10,7 @@ import weakref
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from hypofab.errors import HypofabError, InputError, PhysicalError, Status
 from hypofab.library import check, core, interruptible, last_message, text
 from hypofab.materials import Material
 from hypofab.model import State
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Mark = tuple[str, float] | Mapping[str, Any]
 """A quantity and a value: ("eps_zz", -0.1), or a mapping as in decks."""
@@ -103,6 +106,7 @@ class TestResult:
     unit: str
     sign: int
     """1: tension is positive, -1: compression is"""
+    material: Material
 
     __test__ = False
 
@@ -115,6 +119,12 @@ class TestResult:
         if self.status:
             raise PhysicalError(f"test '{self.name}' stopped early: {self.message}", self.status)
         return self
+
+    def plot(self, kind: str = "stress_strain", **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
+        """A figure of this test; kinds, several tests in one figure, and options: hypofab.plot."""
+        from hypofab.plots import plot  # matplotlib, only where it is wanted
+
+        return plot(self, kind, **options)
 
 
 class Study:
@@ -199,6 +209,7 @@ class Study:
             evaluations=evaluations,
             unit=self.unit,
             sign=self.sign,
+            material=self.state(self.states[core.study_test_state(self._handle, index)])[0],
         )
 
 

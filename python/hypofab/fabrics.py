@@ -3,6 +3,7 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +11,9 @@ from numpy.typing import ArrayLike
 from hypofab.errors import InputError, Status
 from hypofab.library import check, core, text
 from hypofab.tensors import Array, components, read_only
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _TREATMENTS = ("refuse", "skip", "keep")
 _WALLS = (None, "out", "in")
@@ -52,6 +56,12 @@ class Fabric:
 
     def _numbers(self) -> Array:
         return np.concatenate([np.ravel(getattr(self, field.name)) for field in fields(self)]).astype(np.float64)
+
+    def plot(self, label: str = "sample", *, up: str = "z") -> "Figure":
+        """Surface of the density of contact normals; several samples in one figure: hypofab.plot_fabrics."""
+        from hypofab.plots import plot_fabrics  # matplotlib, only where it is wanted
+
+        return plot_fabrics({label: self}, up=up)
 
     def rotated(self, rotation: ArrayLike) -> "Fabric":
         """In other axes: row i of the rotation is the new axis i in the old ones."""

@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
+from hypofab import measured as laboratory
+from hypofab.measured import Measured
 from hypofab.results import EnvelopeSeries, Run
 
 STYLE = {
@@ -49,28 +51,33 @@ def line_style(index: int) -> dict:
     return dict(LINES[index % len(LINES)])
 
 
-def _legend(figure: Figure, axes: Axes, columns: int) -> None:
-    """A legend above the axes, where it covers no data."""
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=columns, handlelength=2.8)
+def legend(figure: Figure, axes: Axes, columns: int) -> None:
+    """A legend above the axes, where it covers no data; fewer columns where labels are long."""
+    handles, labels = axes.get_legend_handles_labels()
+    longest = max((len(re.sub(r"\\[A-Za-z]+|[${}]", "", label)) for label in labels), default=0)
+    fitting = max(1, int(10 * figure.get_figwidth() / (longest + 5)))
+    figure.legend(handles, labels, loc="outside upper center", ncols=min(columns, fitting), handlelength=2.8)
 
 
-def stress_strain(run: Run, *, zoom: float | None = None) -> Figure:
+def stress_strain(run: Run, *, zoom: float | None = None, measured: Measured | None = None) -> Figure:
     """Deviatoric stress q over deviatoric strain eps_q (paper 000, Figure 7).
 
     zoom: an inset shows eps_q from 0 to this value [-], e.g. 1e-3; None: no inset. Where the tests reach less than ten
     times as far, the axes show that range themselves and the inset would cover the curves: it is left out.
+    measured: data of tests to draw over them, columns eps_q and q (hypofab.measured).
     """
     with rc_context(STYLE):
         figure = Figure(figsize=COLUMN, layout="constrained")
         axes = figure.add_subplot()
         for index, test in enumerate(run.tests):
             axes.plot(100 * test.eps_q, test.q, label=test.name, **line_style(index))
+        laboratory.draw(axes, measured or {}, ("eps_q", "q"), (100, 1))
         axes.set(xlabel=r"deviatoric strain $\varepsilon_q$ [%]", ylabel=rf"deviatoric stress $q$ [{run.unit}]")
         axes.set_xlim(left=0)
         axes.set_ylim(bottom=0)
         if zoom is not None and max(test.eps_q.max() for test in run.tests) > 10 * zoom:
             _zoom_inset(axes, run, zoom)
-        _legend(figure, axes, columns=4)
+        legend(figure, axes, columns=4)
         return figure
 
 
@@ -88,10 +95,10 @@ def _zoom_inset(axes: Axes, run: Run, zoom: float) -> None:
     inset.locator_params(nbins=5)
 
 
-def volumetric(run: Run, *, compression_positive: bool = False) -> Figure:
+def volumetric(run: Run, *, compression_positive: bool = False, measured: Measured | None = None) -> Figure:
     """Volumetric strain eps_v over deviatoric strain eps_q (paper 000, Figure 8).
 
-    compression_positive: sign of eps_v in the figure, whatever that of the results.
+    compression_positive: sign of eps_v in the figure, whatever that of the results and of measured data.
     """
     sign = 1 if compression_positive == run.compression_positive else -1
     meaning = "contraction" if compression_positive else "dilation"
@@ -101,16 +108,17 @@ def volumetric(run: Run, *, compression_positive: bool = False) -> Figure:
         axes.axhline(0, color="0.4", linewidth=0.8)
         for index, test in enumerate(run.tests):
             axes.plot(100 * test.eps_q, 100 * sign * test.eps_v, label=test.name, **line_style(index))
+        laboratory.draw(axes, measured or {}, ("eps_q", "eps_v"), (100, 100 * sign))
         axes.set(
             xlabel=r"deviatoric strain $\varepsilon_q$ [%]",
             ylabel=rf"volumetric strain $\varepsilon_v$ [%] ({meaning} positive)",
         )
         axes.set_xlim(left=0)
-        _legend(figure, axes, columns=4)
+        legend(figure, axes, columns=4)
         return figure
 
 
-def stress_path(run: Run) -> Figure:
+def stress_path(run: Run, *, measured: Measured | None = None) -> Figure:
     """Deviator along the axis over mean effective stress: undrained tests, cycles, extension below zero."""
     with rc_context(STYLE):
         figure = Figure(figsize=COLUMN, layout="constrained")
@@ -118,12 +126,13 @@ def stress_path(run: Run) -> Figure:
         axes.axhline(0, color="0.4", linewidth=0.8)
         for index, test in enumerate(run.tests):
             axes.plot(test.p, test.q_signed, label=test.name, **line_style(index))
+        laboratory.draw(axes, measured or {}, ("p", "q_signed"))
         axes.set(
             xlabel=rf"mean effective stress $p$ [{run.unit}]",
             ylabel=rf"axial deviator $q$ [{run.unit}]",
         )
         axes.set_xlim(left=0)
-        _legend(figure, axes, columns=4)
+        legend(figure, axes, columns=4)
         return figure
 
 
@@ -193,5 +202,5 @@ def response_envelopes(
             xlabel=rf"$\sqrt{{2}}\,\dot{{T}}_\mathrm{{lateral}}/|\mathbf{{D}}|$ [{unit}] ({convention} positive)",
             ylabel=rf"$\dot{{T}}_\mathrm{{axial}}/|\mathbf{{D}}|$ [{unit}] ({convention} positive)",
         )
-        _legend(figure, axes, columns=min(3, len(series)))
+        legend(figure, axes, columns=min(3, len(series)))
         return figure

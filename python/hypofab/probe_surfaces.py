@@ -1,6 +1,7 @@
 """Envelopes over the sphere of principal directions as surfaces in space (paper 004, Figure 2)."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib import rc_context
@@ -50,7 +51,14 @@ def surfaces(envelope: Envelope, *, compression_positive: bool = False) -> Figur
     """
     if envelope.vtk is None:
         raise ResultError(f"{envelope.file}: no surfaces, expected vtk: true in the deck")
-    pieces = read_vtp(envelope.vtk)
+    names = [series.name for series in envelope.series]
+    return surfaces_of(envelope, names, read_vtp(envelope.vtk), compression_positive=compression_positive)
+
+
+def surfaces_of(
+    envelope: Envelope, names: Sequence[str], pieces: Sequence[Piece], *, compression_positive: bool = False
+) -> Figure:
+    """The same from surfaces in memory; the envelope gives sign, size and unit."""
     sign = 1 if compression_positive == envelope.compression_positive else -1
     factor, _, unit = scale(envelope, of_response=True)
     clouds = [sign * factor * piece.points for piece in pieces]
@@ -67,7 +75,7 @@ def surfaces(envelope: Envelope, *, compression_positive: bool = False) -> Figur
         for index, (piece, points) in enumerate(zip(pieces, clouds, strict=True)):
             axes = _draw(figure, (rows, columns, index + 1), points, piece, cubes[piece.irrecoverable])
             what = "\nirrecoverable" if piece.irrecoverable else "\nwhole answer" if parts == 2 else ""
-            axes.set_title(envelope.series[piece.series].name + what, fontsize=8, pad=-1)
+            axes.set_title(names[piece.series] + what, fontsize=8, pad=-1)
         what = "strain" if envelope.imposes_stress else "stress"
         figure.suptitle(f"{what} [{unit}], {convention(compression_positive)}", fontsize=8, y=0.01, va="bottom")
         return figure

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +12,9 @@ from hypofab.library import check, core, interruptible, last_message
 from hypofab.materials import Material
 from hypofab.model import Branch, State
 from hypofab.tensors import Array, components, many_components
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 AXES = ("x", "y", "z")
 
@@ -94,6 +98,11 @@ class Probes:
     """between deviators of flow and stress [deg]"""
     angle_to_delta: Array
     """between deviators of flow and intergranular strain [deg]"""
+    material: Material
+    state: State
+    """what was probed"""
+    size: float
+    """norm of the increment; 0: rates"""
 
     def __len__(self) -> int:
         """Number of probes."""
@@ -102,6 +111,12 @@ class Probes:
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         """Pairs of direction and response."""
         return iter(zip(self.direction, self.response, strict=True))
+
+    def plot(self, **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
+        """The figure of these probes; several states in one, and options: hypofab.plot_envelopes."""
+        from hypofab.plots import plot_envelopes  # matplotlib, only where it is wanted
+
+        return plot_envelopes({"": self}, **options)
 
 
 def probe(
@@ -137,7 +152,10 @@ def probe(
     status, answers, measures, statuses = interruptible(call)
     if status >= Status.BAD_MATERIAL or (status and check_probes):
         raise error_of(status, message)
-    return Probes(impose, answers[:, :6], answers[:, 6:12], answers[:, 12:], statuses, *measures.T)
+    return Probes(
+        *(impose, answers[:, :6], answers[:, 6:12], answers[:, 12:], statuses, *measures.T),
+        *(material, state, float(size)),
+    )
 
 
 def envelope(material: Material, state: State, n: int = 72, axis: str = "y", **options: object) -> Probes:

@@ -6,7 +6,7 @@ Units and signs are those of the deck: tension positive unless it asked for comp
 
 import csv
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -42,6 +42,10 @@ class TestResult:
     rho: Array
     phi_mob: Array
     q_signed: Array
+    cycle: Array
+    """Cycles done, counted in halves; 0 outside of cycles."""
+    material: Mapping[str, float] | None = None
+    """Parameters of the model, where they are known."""
 
 
 @dataclass(frozen=True)
@@ -101,19 +105,23 @@ def read_numbers(path: Path, columns: Mapping[str, list[str]], name: str) -> Arr
         raise ResultError(f"{path}, column {name}: {error}") from error
 
 
-def read_test(path: str | Path) -> TestResult:
+def read_test(path: str | Path, material: Mapping[str, float] | None = None) -> TestResult:
     """Read DIR/<test>.csv as `hypofab run` writes it; the name is that of the file."""
     path = Path(path)
     columns = read_columns(path)
+    if "cycle" not in columns:
+        columns["cycle"] = ["0"] * len(next(iter(columns.values())))
+    return result_of(path.stem, lambda name: read_numbers(path, columns, name), material)
 
-    def scalar(name: str) -> Array:
-        return read_numbers(path, columns, name)
+
+def result_of(name: str, scalar: Callable[[str], Array], material: Mapping[str, float] | None = None) -> TestResult:
+    """A test from its columns, which `scalar` gives by their names."""
 
     def tensor(prefix: str) -> Array:
         return np.column_stack([scalar(f"{prefix}_{component}") for component in COMPONENTS])
 
     return TestResult(
-        name=path.stem,
+        name=name,
         time=scalar("time"),
         step=scalar("step"),
         strain=tensor("eps"),
@@ -127,6 +135,8 @@ def read_test(path: str | Path) -> TestResult:
         rho=scalar("rho"),
         phi_mob=scalar("phi_mob"),
         q_signed=scalar("q_signed"),
+        cycle=scalar("cycle"),
+        material=material,
     )
 
 
@@ -176,9 +186,9 @@ def read_summary(directory: str | Path) -> dict:
 def read_run(directory: str | Path) -> Run:
     """Results of `hypofab run`: summary.json and the file of each test that ran."""
     summary = read_summary(directory)
-    files = [test["file"] for test in summary["tests"] if test["file"] is not None]
+    ran = [test for test in summary["tests"] if test["file"] is not None]
     return Run(
         unit=summary["unit"],
         compression_positive=summary["sign"] == "compression_positive",
-        tests=tuple(read_test(Path(directory) / file) for file in files),
+        tests=tuple(read_test(Path(directory) / test["file"], test.get("material")) for test in ran),
     )

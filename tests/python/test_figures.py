@@ -73,7 +73,7 @@ def test_plot_command_writes_png_and_pdf_and_names_them(
 ) -> None:
     assert main(["plot", "--zoom", "0.1", str(run_directory)]) == 0
     named = capsys.readouterr().out.split()
-    stems = ("stress_strain", "volumetric", "stress_path", envelope_file.stem)
+    stems = ("stress_strain", "volumetric", "stress_path", "compression", envelope_file.stem)
     assert named == [str(run_directory / f"{stem}.{suffix}") for stem in stems for suffix in ("png", "pdf")]
     assert Path(named[0]).read_bytes().startswith(b"\x89PNG")
     assert Path(named[1]).read_bytes().startswith(b"%PDF")
