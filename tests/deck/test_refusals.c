@@ -222,7 +222,7 @@ static void a_good_deck_is_loaded(void **state) {
   assert_int_equal(hypofab_study_envelope_count(study), 1);
   assert_string_equal(hypofab_study_test_name(study, 1), "two");
   assert_null(hypofab_study_test_name(study, 2));
-  for (int i = 0; i < 2; i++) assert_int_equal(hypofab_study_test_state(study, i), 0);
+  for (int i = 0; i < 2; i++) assert_int_equal(hypofab_study_test_state(study, i), i);
   assert_int_equal(hypofab_study_test_state(study, 2), -1);
   assert_null(hypofab_study_test_name(study, -1));
   assert_string_equal(hypofab_study_envelope_name(study, 0), "env");
