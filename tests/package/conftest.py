@@ -1,6 +1,8 @@
 """Tests of the installed package: scripts/python_package builds and installs it and runs these with its Python."""
 
 import json
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,14 @@ ROOT = Path(__file__).resolve().parents[2]
 
 if Path(hypofab.__file__).is_relative_to(ROOT / "python"):
     pytest.exit("these tests are for the installed package: scripts/python_package", returncode=4)
+
+
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Ctrl-C has its meaning for this process and those it starts. A shell starts jobs in the background without."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")

@@ -78,6 +78,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     raise AssertionError("workers live on")
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_sweep_writes_what_has_come(tmp_path: Path) -> None:
     folder = tmp_path / "sweep"
     process = start(folder)
@@ -85,7 +86,7 @@ def test_an_interrupted_sweep_writes_what_has_come(tmp_path: Path) -> None:
     time.sleep(0.3)
     before = hypofab.read_sweep(folder)
     os.kill(process.pid, signal.SIGINT)
-    _, error = process.communicate(timeout=30)
+    _, error = process.communicate()
     assert b"KeyboardInterrupt" in error
     assert len(hypofab.read_sweep(folder)) > len(before)
 

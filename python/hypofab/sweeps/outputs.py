@@ -71,19 +71,30 @@ class Output:
 
 def crossings(x: Array, y: Array, wanted: Array) -> Array:
     """The y where x first meets each wanted value, straight between rows; NaN where it never does."""
-    found = np.full(len(wanted), np.nan)
-    for index, value in enumerate(wanted):
-        side = np.sign(x - value)
-        after = int(np.argmax(side != side[0])) if len(side) else 0
-        if len(side) and side[0] == 0:
-            found[index] = y[0]
-        elif after:
-            before = after - 1
-            share = (value - x[before]) / (x[after] - x[before])
-            found[index] = y[before] + share * (y[after] - y[before])
-        elif len(side) and _is_last(x, value):
+    if len(x) == 0:
+        return np.full(len(wanted), np.nan)
+    steps = np.diff(x)
+    for sign in (1.0, -1.0):
+        if (sign * steps > 0).all():
+            found = np.interp(sign * wanted, sign * x, y, left=np.nan, right=np.nan)
+            break
+    else:
+        found = np.array([_first_crossing(x, y, value) for value in wanted])
+    for index in np.flatnonzero(np.isnan(found)):
+        if _is_last(x, wanted[index]):
             found[index] = y[-1]
     return found
+
+
+def _first_crossing(x: Array, y: Array, value: float) -> float:
+    side = np.sign(x - value)
+    if side[0] == 0:
+        return float(y[0])
+    after = int(np.argmax(side != side[0]))
+    if after == 0:
+        return np.nan
+    before = after - 1
+    return float(y[before] + (value - x[before]) / (x[after] - x[before]) * (y[after] - y[before]))
 
 
 def _is_last(x: Array, value: float) -> bool:
