@@ -5,12 +5,14 @@
 #include <string.h>
 
 #include "deck/output.h"
+#include "deck/sensitivity_table.h"
 
 /* One test while it runs: what the row sink needs. */
 typedef struct run {
   const hypofab_study *study;
   unsigned index;
-  output_file file;
+  output_file file, derivatives; /* the second one empty without `sensitivities` */
+  int n_derivatives;
   study_result *result;
   hypofab_progress progress;
   void *user;
@@ -77,28 +79,65 @@ static int take_row(const hypofab_row *row, void *user) {
   return run->asked_to_stop || ferror(run->file.stream); /* output_commit reports the latter */
 }
 
-/* Run one test into its file. A physical stop is no failure here: it is in the result. */
-static hypofab_status run_test(run *run, const char *directory) {
+static int take_derivatives(const hypofab_row *row, const double *derivative, void *user) {
+  run *run = user;
+  sensitivity_table_row(run->study, row, derivative, run->n_derivatives, run->derivatives.stream);
+  return take_row(row, user) || ferror(run->derivatives.stream);
+}
+
+/* Open the files of a test. */
+static hypofab_status open_files(run *run, const char *directory) {
+  const deck_test *given = &run->study->deck->tests[run->index];
+  char file_name[160];
+  snprintf(file_name, sizeof file_name, "%s.csv", given->name);
+  hypofab_status status = output_open(&run->file, directory, file_name);
+  if (status) return status;
+  write_header(study_columns(&run->study->tests[run->index]), run->file.stream);
+  if (given->sensitivities_count == 0) return HYPOFAB_OK;
+  snprintf(file_name, sizeof file_name, "%s_sensitivities.csv", given->name);
+  status = output_open(&run->derivatives, directory, file_name);
+  if (status)
+    output_discard(&run->file);
+  else
+    sensitivity_table_header(run->study, (int)run->index, run->derivatives.stream);
+  return status;
+}
+
+/* The test itself, with derivatives when the deck asks for them. */
+static hypofab_status follow_test(run *run, hypofab_test_outcome *outcome) {
   const hypofab_study *study = run->study;
   const study_test *test = &study->tests[run->index];
   const study_state *state = &study->states[test->state];
-  study_result *result = run->result;
-  const char *name = study->deck->tests[run->index].name;
-  char file_name[160];
-  snprintf(file_name, sizeof file_name, "%s.csv", name);
-  result->ends = calloc(test->n_steps, sizeof *result->ends);
-  if (!result->ends) return hypofab_fail(HYPOFAB_NO_MEMORY, "test '%s': out of memory", name);
-  hypofab_status status = output_open(&run->file, directory, file_name);
-  if (status) return status;
-  write_header(study_columns(test), run->file.stream);
-
-  hypofab_test_outcome outcome = {0};
+  const hypofab_material *material = &study->materials[state->material];
   hypofab_test_options options = test->options;
   options.watch = watch;
-  status = hypofab_test_run(&study->materials[state->material], &state->initial, test->steps, (int)test->n_steps,
-                            &options, take_row, run, &outcome);
+  if (!run->derivatives.stream)
+    return hypofab_test_run(material, &state->initial, test->steps, (int)test->n_steps, &options, take_row, run,
+                            outcome);
+  hypofab_variation *variations;
+  hypofab_status status = study_variations(study, (int)run->index, NULL, &run->n_derivatives, &variations);
+  if (!status)
+    status = hypofab_test_sensitivities(material, &state->initial, test->steps, (int)test->n_steps, &options,
+                                        run->n_derivatives, variations, take_derivatives, run, outcome);
+  free(variations);
+  return status;
+}
+
+/* Run one test into its file. A physical stop is no failure here: it is in the result. */
+static hypofab_status run_test(run *run, const char *directory) {
+  const hypofab_study *study = run->study;
+  study_result *result = run->result;
+  const char *name = study->deck->tests[run->index].name;
+  result->ends = calloc(study->tests[run->index].n_steps, sizeof *result->ends);
+  if (!result->ends) return hypofab_fail(HYPOFAB_NO_MEMORY, "test '%s': out of memory", name);
+  hypofab_status status = open_files(run, directory);
+  if (status) return status;
+
+  hypofab_test_outcome outcome = {0};
+  status = follow_test(run, &outcome);
   if (status >= HYPOFAB_BAD_MATERIAL) {
     output_discard(&run->file);
+    if (run->derivatives.stream) output_discard(&run->derivatives);
     return hypofab_fail(status, "%s: test '%s': %s", study->path, name, hypofab_last_message());
   }
   result->ran = true;
@@ -107,7 +146,11 @@ static hypofab_status run_test(run *run, const char *directory) {
   result->stopped_in = (unsigned)outcome.step;
   result->integrator_steps = outcome.integrator_steps;
   result->evaluations = outcome.evaluations;
-  return output_commit(&run->file);
+  status = output_commit(&run->file);
+  if (!run->derivatives.stream) return status;
+  if (!status) return output_commit(&run->derivatives);
+  output_discard(&run->derivatives);
+  return status;
 }
 
 /* The message of a run that stopped early: about its first such test. */

@@ -163,6 +163,8 @@ static const cyaml_schema_field_t test_fields[] = {
     CHOICE("integrator", deck_test, integrator, integrator_names),
     CHOICE("stability", deck_test, stability, boolean_names),
     CYAML_FIELD_FLOAT_PTR("tolerance", OPTIONAL, deck_test, tolerance),
+    CYAML_FIELD_SEQUENCE("sensitivities", OPTIONAL_POINTER, deck_test, sensitivities, &quantity_name, 1,
+                         HYPOFAB_MAX_VARIATIONS),
     CYAML_FIELD_SEQUENCE("steps", CYAML_FLAG_POINTER, deck_test, steps, &step_value, 1, CYAML_UNLIMITED),
     CYAML_FIELD_END};
 

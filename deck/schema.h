@@ -151,6 +151,8 @@ typedef struct deck_test {
   int *integrator;
   int *stability;
   double *tolerance;
+  char **sensitivities; /**< numbers to differentiate with respect to */
+  unsigned sensitivities_count;
   deck_step *steps;
   unsigned steps_count;
 } deck_test;

@@ -121,6 +121,18 @@ bool study_is_plain_name(const char *text);
 /** Intergranular strain of state number index, by whichever of its five sources the deck names. */
 hypofab_status study_resolve_delta(hypofab_study *study, const deck_source *source, unsigned index);
 
+/** Check the numbers under `sensitivities` of test number index. */
+hypofab_status study_check_sensitivities(const hypofab_study *study, const deck_source *source, unsigned index);
+
+/**
+ * @brief The variations of names, for test number index.
+ * @param names      n of them; NULL: those of the deck
+ * @param n          in: their number; out: that of the variations
+ * @param variations allocated, tension positive but for the sign of what is varied; to be freed by the caller
+ */
+hypofab_status study_variations(const hypofab_study *study, int index, const char *const *names, int *n,
+                                hypofab_variation **variations);
+
 /** Step number index of test number test: six conditions, end, cycles, stops and row spacing. */
 hypofab_status study_resolve_step(hypofab_study *study, const deck_source *source, unsigned test, unsigned index);
 

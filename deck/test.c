@@ -48,6 +48,7 @@ static hypofab_status resolve_test(hypofab_study *study, const deck_source *sour
   }
   complete_frames(given, test);
   hypofab_status status = study_check_reach(study, source, index);
+  if (!status) status = study_check_sensitivities(study, source, index);
   if (status) return status;
 
   const study_state *state = &study->states[test->state];

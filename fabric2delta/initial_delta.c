@@ -52,7 +52,7 @@ hypofab_status hypofab_fabric_to_delta_weighted(const hypofab_fabric *fabric, do
   if (!usable) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "initial delta: the fabric holds numbers that are not finite");
 
   double f;
-  hypofab_status status = weight_function_value(weight, fabric->anisotropy, c, &f);
+  hypofab_status status = weight_function_value(weight, fabric->anisotropy, c, &f, NULL);
   if (status) return status;
   hypofab_initial_delta map;
   hypofab_fabric_map_to_delta(fabric, R, f, &map);
@@ -66,4 +66,23 @@ hypofab_status hypofab_fabric_to_delta_weighted(const hypofab_fabric *fabric, do
 hypofab_status hypofab_fabric_to_delta(const hypofab_fabric *fabric, double R, double c,
                                        hypofab_initial_delta *result) {
   return hypofab_fabric_to_delta_weighted(fabric, R, c, NULL, result);
+}
+
+/* delta = R A/|A| with A = (1 - f) 1 + f F: what A changes normal to itself. */
+hypofab_status hypofab_fabric_delta_slope(const hypofab_fabric *fabric, double R, double c, const char *weight,
+                                          double slope[6]) {
+  hypofab_initial_delta map;
+  double f, f_slope, A[6], A_slope[6], square = 0.0, along = 0.0;
+  hypofab_status status = hypofab_fabric_to_delta_weighted(fabric, R, c, weight, &map);
+  if (!status) status = weight_function_value(weight, fabric->anisotropy, c, &f, &f_slope);
+  if (status) return status;
+  for (int i = 0; i < 6; i++) {
+    const double unit = i < 3 ? 1.0 : 0.0, count = i < 3 ? 1.0 : 2.0, F = fabric->deviatoric_fabric[i];
+    A[i] = (1.0 - f) * unit + f * F;
+    A_slope[i] = f_slope * (F - unit);
+    square += count * A[i] * A[i];
+    along += count * A[i] * A_slope[i];
+  }
+  for (int i = 0; i < 6; i++) slope[i] = R / sqrt(square) * (A_slope[i] - along / square * A[i]);
+  return HYPOFAB_OK;
 }

@@ -8,13 +8,14 @@
 #include "hypofab.h"
 
 /**
- * @brief Value of a weight function.
+ * @brief Value of a weight function, and its derivative with respect to c.
  * @param name  NULL: "exponential"
  * @param a     anisotropy, >= 0
  * @param c     parameter, > 0
  * @param value set
+ * @param slope set, unless NULL; at a bend the one for greater c
  * @return HYPOFAB_BAD_ARGUMENT for an unknown name; the message lists the known ones
  */
-hypofab_status weight_function_value(const char *name, double a, double c, double *value);
+hypofab_status weight_function_value(const char *name, double a, double c, double *value, double *slope);
 
 #endif

@@ -102,4 +102,48 @@ hypofab_status hypofab_rate_derivatives_at(const hypofab_material *material, con
                                            const double stretching[6], hypofab_branch branch,
                                            hypofab_rate_derivatives *derivatives);
 
+/* ------------------------------------------------------------------ fabric */
+
+/**
+ * @brief Derivative of the delta of a contact fabric with respect to c of the weight function.
+ * @param fabric, R, c, weight as hypofab_fabric_to_delta_weighted
+ * @param slope  filled, tensor components. At the bend of the weight "linear", a = c, that of c > a
+ */
+hypofab_status hypofab_fabric_delta_slope(const hypofab_fabric *fabric, double R, double c, const char *weight,
+                                          double slope[6]);
+
+/* ------------------------------------------------------------------- decks */
+
+/**
+ * @brief The names under the key `sensitivities` of a test of a study.
+ * @param test  index of the test, from 0
+ * @param index 0-based
+ * @return NULL past the last one
+ */
+const char *hypofab_study_sensitivity_name(const hypofab_study *study, int test, int index);
+
+/**
+ * @brief The variation of a number of a deck, for a test of it: delta follows R and c where the deck says so.
+ *
+ * @param name as in decks: those of hypofab_variation_of, and "c" where delta comes from a fabric. Stress and delta
+ * have the deck's sign.
+ * @return HYPOFAB_BAD_ARGUMENT: unknown name, or a number the test does not depend on (message says why)
+ */
+hypofab_status hypofab_study_variation(const hypofab_study *study, int test, const char *name,
+                                       hypofab_variation *variation);
+
+/**
+ * @brief Run one test of a study with derivatives, in the deck's sign.
+ * @param n_names    number of names; 0 and names NULL: those of the deck
+ * @param names      as hypofab_study_variation; derivatives come in this order
+ * @param sink, user as hypofab_test_sensitivities; signs of row and derivatives are the deck's
+ * @param watch      as hypofab_test_options.watch; NULL when not wanted
+ * @param outcome    tension positive; NULL when not wanted
+ * @return as hypofab_test_sensitivities
+ */
+hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int test, int n_names,
+                                                const char *const *names, hypofab_sensitivity_sink sink,
+                                                int (*watch)(int step, double done, void *user), void *user,
+                                                hypofab_test_outcome *outcome);
+
 #endif

@@ -83,7 +83,7 @@ static size_t split(char *line, char **fields, size_t most) {
   return n;
 }
 
-enum { MOST_FIELDS = 128 };
+enum { MOST_FIELDS = 1024 };
 
 table table_read(const char *path) {
   char *text = scratch_read(path), *rest = text, *fields[MOST_FIELDS];
