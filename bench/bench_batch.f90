@@ -137,8 +137,8 @@ contains
     integer(c_int), intent(out) :: evaluations(n_points)
     integer(c_int64_t), intent(out) :: scalar
     scalar = 0
- call update_points(sands(find_sand('paper000'))%props, tolerance, 20000_c_int, int(set, c_int), int(n_points, c_int), &
-                       stride, points%stress, points%delta, points%void_ratio, strain, status, evaluations, scalar)
+    call update_points(sands(find_sand('paper000'))%props, tolerance, 20000_c_int, 0_c_int, int(set, c_int), &
+      int(n_points, c_int), stride, points%stress, points%delta, points%void_ratio, strain, status, evaluations, scalar)
   end subroutine update_all
 
   !> One line.

@@ -168,6 +168,7 @@ void hypofab_delta_rate(const hypofab_material *material, const double delta[6],
 typedef struct hypofab_update_options {
   double tolerance;    /**< relative local error of stress, delta and void ratio; default 1e-6 */
   int max_evaluations; /**< bound on rate evaluations; default 20000 */
+  int regularised; /**< 1: zero and tensile stress have the response that FE hosts get (umat.md); 0: they are refused */
 } hypofab_update_options;
 
 /** What an update did. */
@@ -175,6 +176,7 @@ typedef struct hypofab_update_report {
   int evaluations;       /**< rate evaluations */
   hypofab_branch branch; /**< branch at the end of the increment */
   double substep;        /**< |strain| that the error control suggests for the next substep; 0: none was made */
+  int regularised;       /**< was the stress at or beyond the border of the domain somewhere on the way? */
 } hypofab_update_report;
 
 /**

@@ -46,14 +46,15 @@ contains
   !> @param props           the 16 parameters, admissible
   !> @param tolerance       as in options_type, above zero
   !> @param max_evaluations as in options_type, above zero
+  !> @param regularised     not zero: a response beyond the domain too (border.f90)
   !> @param delta           of the plain model only checked, and may be absent
   !> The other arguments are those of update_many.
-  subroutine update_points(props, tolerance, max_evaluations, instructions, n, stride, stress, delta, void_ratio, strain, &
-                           status, evaluations, scalar) bind(C, name='hypofab_update_points')
+  subroutine update_points(props, tolerance, max_evaluations, regularised, instructions, n, stride, stress, delta, &
+                           void_ratio, strain, status, evaluations, scalar) bind(C, name='hypofab_update_points')
     real(c_double), intent(in) :: props(n_parameters)
     real(c_double), intent(in) :: tolerance
     integer(c_int), intent(in) :: max_evaluations
-    integer(c_int), value :: instructions, n
+    integer(c_int), value :: regularised, instructions, n
     integer(c_int64_t), value :: stride
     real(c_double), intent(inout) :: stress(stride, *), void_ratio(*)
     real(c_double), intent(inout), optional :: delta(stride, *)
@@ -62,8 +63,8 @@ contains
     integer(c_int64_t), intent(inout) :: scalar
     type(options_type) :: options
     options = options_type(tolerance=tolerance, max_evaluations=max_evaluations)
-  call update_many(material_from_props(props), options, int(instructions), int(n), stride, stress, void_ratio, strain, &
-                     status, evaluations, scalar, delta)
+    call update_many(material_from_props(props, regularised /= 0), options, int(instructions), int(n), stride, stress, &
+                     void_ratio, strain, status, evaluations, scalar, delta)
   end subroutine update_points
 
   !> One strain increment of points of one material.

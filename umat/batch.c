@@ -35,7 +35,7 @@ typedef struct tally {
 static void update_group(int instructions, const hypofab_material *material, const hypofab_update_options *options,
                          const hypofab_points *points, size_t first, int n, tally *done) {
   int status[GROUP], evaluations[GROUP];
-  hypofab_update_points(material, &options->tolerance, &options->max_evaluations, instructions, n,
+  hypofab_update_points(material, &options->tolerance, &options->max_evaluations, options->regularised, instructions, n,
                         (int64_t)points->stride, points->stress + first, points->delta ? points->delta + first : NULL,
                         points->void_ratio + first, points->strain + first, status, evaluations, &done->scalar);
   for (int i = 0; i < n; i++) {
@@ -57,6 +57,7 @@ hypofab_status hypofab_update_batch(const hypofab_material *material, const hypo
   hypofab_update_options wanted = {.tolerance = 1e-6, .max_evaluations = 20000};
   if (options && options->tolerance > 0.0) wanted.tolerance = options->tolerance;
   if (options && options->max_evaluations > 0) wanted.max_evaluations = options->max_evaluations;
+  if (options) wanted.regularised = options->regularised;
 
   const int instructions = hypofab_batch_best_instructions();
   const int64_t groups = (int64_t)((points->count + GROUP - 1) / GROUP);

@@ -7,6 +7,7 @@
 module HYPOFAB_BATCH_RATE
   use, intrinsic :: iso_fortran_env, only: real64
   use umat_batch_lanes
+  use umat_border, only: reach_of_border
   use umat_material, only: material_type
   implicit none
   private
@@ -178,10 +179,12 @@ contains
     type(pressure_type), intent(out) :: p
     real(wp), intent(inout) :: bad(width)
     real(wp) :: t1, t2, t3, t4, t5, t6, d1, d2, d3, per_p, ratio, square, cube, on_axis, limiting, size, of_ratio, of_both, &
-                quotient, by_ratio, by_both, inverse, inside, base, p_t, largest
+                quotient, by_ratio, by_both, inverse, inside, base, p_t, largest, smallest, least
     integer :: i
     p_t = m%p_t
     largest = largest_pressure * m%h_s
+    smallest = m%soft_pressure
+    least = third * reach_of_border * m%confinement ! as in is_negative_definite
     !GCC$ ivdep
     do i = 1, width
       per_p = origin%inverse_pressure(i)
@@ -199,8 +202,9 @@ contains
       cube = 3.0_wp * (d1 * (d2 * d3 - t6 * t6) - t4 * (t4 * d3 - t5 * t6) + t5 * (t4 * t6 - t5 * d2))
       ! All principal stresses are compressive where all three invariants are positive; the bounds of pressure.
       inside = merge(1.0_wp, 0.0_wp, min((2.0_wp * third - margin) * ratio**2 - square, &
-                           cube * third - ratio * (square * (1.0_wp / 6) - ratio**2 * (1.0_wp / 27 - margin))) > 0.0_wp)
-      inside = merge(inside, 0.0_wp, min(ratio - smallest_ratio, min(largest * per_p, 1.0_wp / smallest_ratio) - ratio) > 0.0_wp)
+                           cube * third - ratio * (square * (1.0_wp / 6) - ratio**2 * (1.0_wp / 27 - margin)) - &
+                                         least * per_p * ratio**2) > 0.0_wp)
+      inside = merge(inside, 0.0_wp, min(ratio - max(smallest_ratio, smallest * per_p), min(largest * per_p, 1.0_wp / smallest_ratio) - ratio) > 0.0_wp)
       bad(i) = max(bad(i), 1.0_wp - inside)
       ratio = chosen(inside, ratio, 1.0_wp)
       ! sqrt(2) tan(psi) cos(3 theta) = -6 cube/square is multiplied out; the isotropic axis has none.

@@ -6,6 +6,7 @@ module HYPOFAB_BATCH_SHORT
   use HYPOFAB_BATCH_LINEAR, only: slopes_type, slopes_at, add_linear
   use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
   use umat_batch_lanes
+  use umat_border, only: reach_of_border
   use umat_lobatto, only: rule_long
   use umat_material, only: material_type
   use umat_short_leg, only: order, farthest, longest_plain, c1, c2, to_end, to_node, of_square, quadrature
@@ -212,7 +213,8 @@ contains
     real(wp), dimension(width, 6, 0:2) :: frozen, f
     real(wp), dimension(width, 6) :: u, rest
     real(wp), dimension(width) :: bad, d_void_ratio, length
-    real(wp) :: stress(6), place, theta, left, bend, scale, dev, error, e, third, accepted, p_t, size, going
+    real(wp) :: stress(6), place, theta, left, bend, scale, dev, error, e, third, accepted, p_t, size, going, &
+                smallest, least
     integer :: i, j, k
 
     bad = 0.0_wp
@@ -237,6 +239,8 @@ contains
     call apply(m, h, o%x(:, :, 2), o%weight(:, 2), rest)
     third = 1.0_wp / 3.0_wp
     p_t = m%p_t
+    smallest = m%soft_pressure
+    least = reach_of_border * m%confinement * third ! as in is_negative_definite
     !GCC$ ivdep
     do i = 1, width
       !GCC$ unroll 6
@@ -258,7 +262,8 @@ contains
       bend = (1.0_wp / (c2 - c1)) * scale * sqrt(f(i, 1, 2)**2 + f(i, 2, 2)**2 + f(i, 3, 2)**2 + &
                                                  2.0_wp * (f(i, 4, 2)**2 + f(i, 5, 2)**2 + f(i, 6, 2)**2))
       error = max(o%error(i), left + quadrature * bend * (theta + o%fall(i))**3)
-bad(i) = max(bad(i), outside_domain(stress(1) - p_t, stress(2) - p_t, stress(3) - p_t, stress(4), stress(5), stress(6)))
+      bad(i) = max(bad(i), outside_domain(stress(1) - p_t, stress(2) - p_t, stress(3) - p_t, stress(4), stress(5), &
+                                          stress(6), smallest, least))
       going = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_begin)
       accepted = going * merge(1.0_wp - bad(i), 0.0_wp, error <= tolerance)
       e = lanes(b + i, l_e) + (1.0_wp + lanes(b + i, l_e)) * swelling(lanes(b + i, l_trace) * lanes(b + i, l_length))

@@ -13,6 +13,7 @@ module HYPOFAB_BATCH_STEP
   use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
   use HYPOFAB_BATCH_REACH, only: nodes_type, reach
   use umat_batch_lanes
+  use umat_border, only: reach_of_border
   use umat_lobatto, only: rules, most_nodes, rule_short, rule_long
   use umat_material, only: material_type
   use umat_step, only: least_share, most_share, most_sweeps, rounding, worth_trying, too_many_sweeps, part_of_pressure
@@ -234,11 +235,13 @@ contains
     real(wp), intent(inout) :: bad(width)
     type(node_type) :: final
     real(wp) :: stress(width, 6), theta(width), missing(width), growth(width), scale(width), accepted(width), done(width), after, &
-                fine, keeps, p_t
+                fine, keeps, p_t, smallest, least
     integer :: i, n, comp
 
     n = rules(rule)%n
     p_t = m%p_t
+    smallest = m%soft_pressure
+    least = reach_of_border * m%confinement / 3.0_wp ! as in is_negative_definite
     theta = size_of(w%u(:, :, n)) / w%scale
     do comp = 1, 6
       stress(:, comp) = lanes(b + 1:b + width, l_stress - 1 + comp) + w%u(:, comp, n)
@@ -259,7 +262,7 @@ contains
       keeps = merge(1.0_wp, 0.0_wp, after >= lanes(b + i, l_smallest)**2)
       bad(i) = max(bad(i), fine * (1.0_wp - keeps), fine * outside_domain(stress(i, 1) - p_t, stress(i, 2) - p_t, &
                                                                        stress(i, 3) - p_t, stress(i, 4), stress(i, 5), &
-                                                                          stress(i, 6)))
+                                                                          stress(i, 6), smallest, least))
       growth(i) = chosen(fine, growth(i), merge(1.0_wp, min(growth(i), 0.9_wp), rule == rule_short))
       w%growth(i) = chosen(w%going(i), growth(i), w%growth(i))
       tags(b + i, t_rule) = merge(int(rule_long, int64), tags(b + i, t_rule), w%going(i) - fine > half)

@@ -35,13 +35,14 @@ module umat_capi
   !> hypofab_update_options
   type, bind(C) :: c_update_options
     real(c_double) :: tolerance
-    integer(c_int) :: max_evaluations
+    integer(c_int) :: max_evaluations, regularised
   end type c_update_options
 
   !> hypofab_update_report
   type, bind(C) :: c_update_report
     integer(c_int) :: evaluations, branch
     real(c_double) :: substep
+    integer(c_int) :: regularised
   end type c_update_report
 
   ! C wants addresses of the tables' texts; these copies never change.
@@ -219,21 +220,26 @@ contains
     type(options_type) :: o
     type(report_type) :: r
     type(state_type) :: s
+    type(material_type) :: m
+    logical :: regularised
     real(c_double) :: matrix(6, 6)
 
     status = material_check(props)
     if (status /= status_ok) return
+    regularised = .false.
     if (present(options)) then
+      regularised = options%regularised /= 0
       if (options%tolerance > 0.0_c_double) o%tolerance = options%tolerance
       if (options%max_evaluations > 0) o%max_evaluations = options%max_evaluations
     end if
+    m = material_from_props(props, regularised)
     s = state_type(state%stress, state%delta, state%void_ratio)
     if (present(tangent)) then
-      call update_state(material_from_props(props), o, s, strain, r, status, matrix)
+      call update_state(m, o, s, strain, r, status, matrix)
     else
-      call update_state(material_from_props(props), o, s, strain, r, status)
+      call update_state(m, o, s, strain, r, status)
     end if
-    if (present(report)) report = c_update_report(r%evaluations, r%branch, r%substep)
+    if (present(report)) report = c_update_report(r%evaluations, r%branch, r%substep, merge(1, 0, r%regularised))
     select case (status)
     case (status_ok)
       state = c_state(s%stress, s%delta, s%void_ratio)

@@ -141,7 +141,7 @@ contains
     end if
 
     request = request_from(K(1))
-    m = material_from_props(props)
+    m = material_from_props(props, regularised=.true.)
     strain = 0.0_wp
     do i = 1, n
       strain(i) = (end_strain(i) - start_strain(i)) / weight(i)
@@ -314,7 +314,7 @@ contains
     case (status_step_limit)
       text = 'the bound on rate evaluations was reached before the end of the strain increment'
     case default
-      text = 'a principal stress (of T - p_t 1) is not compressive: the state left the domain of the model'
+      text = 'the void ratio left 0.001 to 100, or a stress 10 h_s: the state left the domain of the model'
     end select
   end function reason
 

@@ -11,6 +11,7 @@ module umat_host_state
   use umat_status, only: status_ok, status_bad_argument
   use umat_tensor, only: norm, rotate, trace, friction_angle, unit_tensor
   use umat_update, only: report_type
+  use umat_wolffersdorff, only: in_domain
   implicit none
   private
   public :: tensor_from_host, unpack_state, turn_delta, pack_stress, pack_statev, pack_tangent, swap_shear
@@ -56,7 +57,7 @@ contains
     state%stress = tensor_from_host(stress, 1.0_wp)
     if (size(stress) == 3) then
       ! Effective p is in STATEV(9); in the first call it is not, and the plane's mean serves.
-      if (statev(sv_p) > 0.0_wp) then
+      if (abs(statev(sv_p)) > 0.0_wp) then
         state%stress(3) = -3.0_wp * (statev(sv_p) + pore_pressure) - state%stress(1) - state%stress(2)
       else
         state%stress(3) = 0.5_wp * (state%stress(1) + state%stress(2))
@@ -131,8 +132,27 @@ contains
     statev(sv_evaluations) = real(report%evaluations, c_double)
     statev(sv_friction_angle) = real(friction_angle(state%stress), c_double)
     statev(sv_rho) = real(norm(state%delta) / merge(m%R, 1.0_wp, m%intergranular), c_double)
-    if (report%substep > 0.0_wp) statev(sv_substep) = real(report%substep, c_double)
+    statev(sv_substep) = real(marked_substep(m, state, report, real(statev(sv_substep), wp)), c_double)
   end subroutine pack_statev
+
+  !> The suggested substep, marked by a negative sign where the stress is or was at or beyond the border of the domain
+  !> (border.f90).
+  !> @param old what the host has; it stays where there is no suggestion, but for the mark
+  pure function marked_substep(m, state, report, old) result(substep)
+    type(material_type), intent(in) :: m
+    type(state_type), intent(in) :: state
+    type(report_type), intent(in) :: report
+    real(wp), intent(in) :: old
+    real(wp) :: substep
+    substep = abs(old)
+    if (report%substep > 0.0_wp) then
+      substep = report%substep
+    else if (old < 0.0_wp) then
+      substep = 0.0_wp
+    end if
+    if (.not. report%regularised .and. in_domain(m, state%stress, state%void_ratio)) return
+    substep = -merge(substep, 1.0_wp, substep > 0.0_wp)
+  end function marked_substep
 
   !> Stiffness to the host: engineering shear halves the doubly counted columns; pore water adds to the normal block.
   pure subroutine pack_tangent(m, tangent, ddsdde)

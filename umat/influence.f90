@@ -6,13 +6,15 @@
 module umat_influence
   use umat_collocation, only: nodes_type, decay
   use umat_delta_path, only: delta_influence_type, delta_influence, kappa_slope
+  use umat_influence_in_full, only: influence_in_full, size_of
   use umat_kinds, only: wp
   use umat_leg, only: leg_type
   use umat_lobatto, only: lobatto_type, most_nodes
   use umat_material, only: material_type
   use umat_status, only: branch_plain, branch_reversal
   use umat_tensor, only: ddot, deviator, norm, multiplicity, unit_tensor
-  use umat_variation, only: linear_rate_type, linear_rate, operand_influence_type, operand_influence, direct_parts, &
+  use umat_variation, only: linear_rate_type, linear_rate, linearise, operand_influence_type, operand_influence, &
+                            direct_parts, &
                             part_d, part_normal, part_that, part_unit
   use umat_wolffersdorff, only: hypoplastic_type, sensitivities
   implicit none
@@ -65,7 +67,7 @@ contains
     real(wp) :: slope(0:most_nodes), weight(0:most_nodes, most_nodes), at_end(6, 6), rate(6, 6)
     real(wp) :: integral, size, left, highest, ratio
     integer :: k, n
-    logical :: solved
+    logical :: solved, outside
 
     n = rule%n
     do k = 0, n
@@ -79,6 +81,17 @@ contains
       if (k > 0) integral = integral + dot_product(rule%a(:n, k), slope(:n))
       call direct_rate(k, integral, rates)
     end do
+    left = max(0.0_wp, leg%length - before - nodes%length(n)) / nodes%strain(n)
+    outside = .false.
+    do k = 0, n
+      outside = outside .or. tensors(k)%outside
+    end do
+    if (outside) then
+      call at_border(at_end, rate, error)
+      influence%on_stress = at_end + (end - 1.0_wp) * rate
+      influence%integral = influence%integral + dot_product(rule%a(:n, n), slope(:n)) + (end - 1.0_wp) * slope(n)
+      return
+    end if
     call propagators(rule, rates%diagonal, weight)
     call solve(n, merge(2, 3, leg%branch == branch_reversal), weight, influence%on_stress, rates, solved)
     error = huge(error)
@@ -86,8 +99,7 @@ contains
 
  at_end = combined(n, weight(:, n), 1.0_wp + dot_product(weight(:n, n), rates%diagonal(:n)), influence%on_stress, rates)
     rate = rate_at(n, at_end, rates)
-    left = max(0.0_wp, leg%length - before - nodes%length(n))
-    size = size_of(at_end) + left / nodes%strain(n) * size_of(rate)
+    size = size_of(at_end) + left * size_of(rate)
     call decay([mode_size(0), mode_size(1), mode_size(2)], highest, ratio)
     ! The rule misses mode 2 n of the rates.
     error = (highest * ratio**n / size + turn_missed(n, rates%that(:, 0), rates%that(:, n))) / share
@@ -95,6 +107,21 @@ contains
     influence%integral = influence%integral + dot_product(rule%a(:n, n), slope(:n)) + (end - 1.0_wp) * slope(n)
 
   contains
+
+    !> The step where the stress is at the border of the domain, or beyond.
+    pure subroutine at_border(at_end, rate, error)
+      real(wp), intent(out) :: at_end(6, 6), rate(6, 6), error
+      real(wp), dimension(6, 6, 0:most_nodes) :: direct, by_stress
+      real(wp) :: none(6, 6), by_void_ratio(6)
+      integer :: k
+      none = 0.0_wp
+      do k = 0, n
+        direct(:, :, k) = rate_at(k, none, rates)
+     call linearise(m, tensors(k), sensitivities(m, nodes%void_ratio(k), tensors(k)), nodes%strain(k) * nodes%x(:, k), &
+                       nodes%strain(k) * nodes%weight(k), by_stress(:, :, k), by_void_ratio)
+      end do
+      call influence_in_full(rule, direct, by_stress, leg%tolerance, left, influence%on_stress, at_end, rate, error)
+    end subroutine at_border
 
     !> Node k's rates but for the influence through the stress.
     pure subroutine direct_rate(k, integral, rates)
@@ -361,17 +388,5 @@ contains
       on_eta = on_eta + on(i) * influence(:, i)
     end do
   end function contracted
-
-  !> Size of an influence: a fourth-order tensor's norm, so that it does not depend on the axes.
-  pure function size_of(influence) result(s)
-    real(wp), intent(in) :: influence(6, 6)
-    real(wp) :: s
-    integer :: i
-    s = 0.0_wp
-    do i = 1, 6
-      s = s + multiplicity(i) * sum(influence(:, i)**2 / multiplicity)
-    end do
-    s = sqrt(s)
-  end function size_of
 
 end module umat_influence

@@ -29,6 +29,7 @@ module umat_integration
     integer :: evaluations = 0 !< rate evaluations
     integer :: branch = branch_plain !< branch at the end
     real(wp) :: substep = 0.0_wp !< |strain| that the error control suggests for the next step; 0: none was made
+    logical :: regularised = .false. !< was the stress at or beyond the border of the domain somewhere on the way?
   end type report_type
 
   !> A stress that falls to this part of its start on a straight path is on its way to zero, which is outside the domain.
@@ -84,7 +85,7 @@ contains
     call start_of_step(m, state%stress, state%void_ratio, step%start, status)
     step%evaluations = 1
     if (status == status_ok .and. .not. with_tangent) then
-      call short_leg(m, leg, step%start, size_of(step%start), most_share * options%tolerance, state, error, accepted, &
+    call short_leg(m, leg, step%start, size_of(m, step%start), most_share * options%tolerance, state, error, accepted, &
                      step%evaluations)
       if (accepted) then
         report%evaluations = report%evaluations + step%evaluations
@@ -111,7 +112,8 @@ contains
         if (step%last) exit
         step%x = step%x + step%h
         step%done = step%done + covered
-        if (norm(step%stress) < vanishing * norm(state%stress)) status = status_out_of_domain
+        if (norm(step%stress) < vanishing * norm(state%stress) .and. .not. m%confinement > 0.0_wp) &
+          status = status_out_of_domain
         if (status == status_ok) call start_of_step(m, step%stress, void_ratio_at(leg, step%done), step%start, status)
         step%evaluations = step%evaluations + 1
       else if (growth < 1.0_wp .and. covered < smallest_step * length) then
@@ -124,6 +126,7 @@ contains
     report%evaluations = report%evaluations + step%evaluations
     if (status /= status_ok) return
     report%substep = growth * covered
+    report%regularised = report%regularised .or. step%outside
     if (m%intergranular) state%delta = delta_of(m, path_point(m, leg%path, step%x + step%end * step%h))
     state%void_ratio = void_ratio_at(leg, length)
     state%stress = step%stress

@@ -57,20 +57,28 @@ module umat_material
   character(len=*), parameter :: contradiction = &
     "(a, ' = ', g0.6, ' and ', a, ' = ', g0.6, ' contradict each other, expected ', a)"
 
+  !> A regularised material: its confinement over h_s, and the least of pressure over stiffness. The stiffness at zero stress is
+  !> of the order of their quotient or less: 1e-7 h_s gives a tension that means nothing, and is enough for a solver of equations.
+  real(wp), parameter :: confinement_over_h_s = 1.0e-12_wp, soft_strain = 1.0e-4_wp, soft_over_h_s = 1.0e-8_wp
+
   !> Parameters and the constants that follow from them.
   type :: material_type
     real(wp) :: p_t, h_s, n, e_d0, e_c0, e_i0, alpha, beta, m_R, m_T, R, beta_r, chi, K_w, e_0
     real(wp) :: a !< of the limit condition: sqrt(3) (3 - sin phi_c)/(2 sqrt(2) sin phi_c)
     real(wp) :: f_b0 !< the part of f_b that does not depend on the state [stress]
     logical :: intergranular !< is the intergranular strain on (m_R > 0.5)?
+    real(wp) :: confinement !< what the model sees of a stress beyond its domain (border.f90) [stress]; 0: nothing, it refuses
+    real(wp) :: soft_pressure !< -tr T below which the stiffness is lowered (border.f90) [stress]; 0 without a confinement
   end type material_type
 
 contains
 
   !> Material from checked parameters.
-  !> @param props the 16 parameters, admissible (check_props)
-  pure function material_from_props(props) result(m)
+  !> @param props       the 16 parameters, admissible (check_props)
+  !> @param regularised is there to be a response beyond the domain too (border.f90)? no unless given
+  pure function material_from_props(props, regularised) result(m)
     real(wp), intent(in) :: props(n_parameters)
+    logical, intent(in), optional :: regularised
     type(material_type) :: m
     m%p_t = props(i_p_t)
     m%h_s = props(i_h_s)
@@ -90,6 +98,14 @@ contains
     m%intergranular = intergranular_is_on(props)
     m%a = limit_constant(props)
     m%f_b0 = m%h_s / m%n * (m%e_i0 / m%e_c0)**m%beta / stiffness_bracket(props)
+    m%confinement = 0.0_wp
+    m%soft_pressure = 0.0_wp
+    if (.not. present(regularised)) return
+    if (.not. regularised) return
+    m%confinement = confinement_over_h_s * m%h_s
+    ! Pressure over stiffness, of an isotropic stress and e near e_c: theory.md Eqs. (8) to (10).
+    m%soft_pressure = m%h_s * max(soft_over_h_s, (soft_strain * 3.0_wp * m%f_b0 / m%h_s * (1.0_wp + m%e_i0) / m%e_i0 * &
+                                                  (1.0_wp + m%a**2 / 3.0_wp))**(1.0_wp / m%n))
   end function material_from_props
 
   !> Are the parameters finite, within their bounds and consistent?

@@ -122,7 +122,7 @@ contains
 
     call check_props(real(props(:n_parameters), wp), status, message)
     if (status /= status_ok) return
-    point%m = material_from_props(real(props(:n_parameters), wp))
+    point%m = material_from_props(real(props(:n_parameters), wp), regularised=.true.)
     status = status_bad_argument
     point%K_w = 0.0_wp
     if (is_undrained == 1) then

@@ -72,6 +72,8 @@ contains
     integer :: k, status
 
     accepted = .false.
+    error = huge(error)
+    if (start%h%outside) return ! beyond the domain the rate bends too much
     if (leg%branch == branch_plain) then
       error = merge(0.0_wp, huge(error), leg%length <= longest_plain)
       fall = 0.0_wp

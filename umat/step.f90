@@ -9,7 +9,7 @@ module umat_step
   use umat_material, only: material_type
   use umat_status, only: status_ok, status_out_of_domain
   use umat_tensor, only: norm
-  use umat_wolffersdorff, only: hypoplastic_type, in_domain
+  use umat_wolffersdorff, only: hypoplastic_type, is_admissible
   implicit none
   private
   public :: step_type, reach, try, size_of, growth_of
@@ -29,6 +29,7 @@ module umat_step
     real(wp) :: stress(6) !< at the end of an accepted step
     type(influence_type) :: influence !< at the end of an accepted step, at the start of any other
     integer :: evaluations = 0 !< rate evaluations so far
+    logical :: outside = .false. !< was the stress outside the domain in a step so far?
     integer :: obstacle !< why the end of the leg cannot be reached, if it cannot: a status
   end type step_type
 
@@ -143,12 +144,12 @@ contains
     type(influence_type) :: influence
     real(wp) :: by_stress(6, 6, most_nodes), f(6, 0:most_nodes), u(6, 0:most_nodes)
     real(wp) :: tolerance, scale, theta, missing, left, error
-    integer :: n
+    integer :: n, k
 
     accepted = .false.
     n = rules(step%rule)%n
     tolerance = tolerance_of(leg, step)
-    scale = size_of(step%start)
+    scale = size_of(m, step%start)
     call prediction(m, rules(step%rule), step%nodes, step%start, by_stress, f, u)
     ! A first look that costs no evaluation of the rate.
     theta = norm(u(:, n)) / scale
@@ -176,12 +177,16 @@ contains
       return
     end if
     step%stress = step%start%stress + u(:, n) + (step%end - 1.0_wp) * f(:, n)
-    if (.not. in_domain(m, step%stress, step%nodes%void_ratio(n))) then
+    if (.not. is_admissible(m, step%stress, step%nodes%void_ratio(n))) then
       step%obstacle = status_out_of_domain
       growth = 0.25_wp
       return
     end if
     accepted = .true.
+    step%outside = step%outside .or. step%start%h%outside
+    do k = 1, n
+      step%outside = step%outside .or. tensors(k)%outside
+    end do
     if (.not. leg%with_tangent) return
     tensors(0) = step%start%h
     influence = step%influence
@@ -206,7 +211,7 @@ contains
     real(wp) :: scale, change, previous, ratio
     integer :: i, n, status
     n = rules(step%rule)%n
-    scale = size_of(step%start)
+    scale = size_of(m, step%start)
     previous = huge(previous)
     left = previous
     do i = 1, most_sweeps
@@ -232,11 +237,12 @@ contains
   end subroutine sweeps
 
   !> Size of the stress at the start, to which errors are relative [stress]. Where p_t holds a stress near zero, the pressure
-  !> that the model sees.
-  pure function size_of(start) result(scale)
+  !> that the model sees; and where there is an answer to stress zero, a size below which stresses mean nothing.
+  pure function size_of(m, start) result(scale)
+    type(material_type), intent(in) :: m
     type(start_type), intent(in) :: start
     real(wp) :: scale
-    scale = max(norm(start%stress), part_of_pressure * start%h%pressure)
+    scale = max(norm(start%stress), part_of_pressure * max(start%h%pressure, m%soft_pressure))
   end function size_of
 
   !> What a step may use of the tolerance.

@@ -7,8 +7,8 @@ module umat_tensor
   use umat_kinds, only: wp
   implicit none
   private
-  public :: ddot, norm, trace, deviator, trace_of_cube, squared, is_negative_definite, rotate, principal_values
-  public :: friction_angle
+  public :: ddot, norm, trace, deviator, trace_of_cube, squared, is_negative_definite, rotate, diagonalise
+  public :: principal_values, friction_angle
 
   !> The unit tensor.
   real(wp), parameter, public :: unit_tensor(6) = [1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
@@ -77,8 +77,9 @@ contains
   end function determinant
 
   !> Are all principal values negative (all principal stresses compressive)? False for NaN.
-  pure function is_negative_definite(a) result(yes)
-    real(wp), intent(in) :: a(6)
+  !> @param least if above zero: are they all below -least? No is said too where one is barely so, or two are small
+  pure function is_negative_definite(a, least) result(yes)
+    real(wp), intent(in) :: a(6), least
     logical :: yes
     real(wp) :: b(6), size
     yes = .false.
@@ -86,8 +87,10 @@ contains
     size = maxval(abs(a))
     if (.not. size > 0.0_wp) return
     b = a / size
-    ! Sylvester's criterion on -b.
-    yes = b(1) < 0.0_wp .and. b(1) * b(2) - b(4) * b(4) > 0.0_wp .and. determinant(b) < 0.0_wp
+    ! Sylvester's criterion on -b. Its smallest principal value is at least the third invariant over the second, of which
+    ! the latter is at most (tr b)^2/3.
+    yes = b(1) < 0.0_wp .and. b(1) * b(2) - b(4) * b(4) > 0.0_wp .and. &
+          determinant(b) < -least / size * trace(b)**2 / 3.0_wp
   end function is_negative_definite
 
   !> Q a Q^T.
@@ -107,8 +110,21 @@ contains
   pure function principal_values(a) result(values)
     real(wp), intent(in) :: a(6)
     real(wp) :: values(3)
+    call diagonalise(a, values)
+    if (values(1) > values(2)) values(1:2) = values([2, 1])
+    if (values(2) > values(3)) values(2:3) = values([3, 2])
+    if (values(1) > values(2)) values(1:2) = values([2, 1])
+  end function principal_values
+
+  !> Principal values in no particular order, and the directions that belong to them.
+  !> @param axes the directions, as columns
+  pure subroutine diagonalise(a, values, axes)
+    real(wp), intent(in) :: a(6)
+    real(wp), intent(out) :: values(3)
+    real(wp), intent(out), optional :: axes(3, 3)
     real(wp) :: m(3, 3), rotation(3, 3), cotangent, t, c
     integer :: sweep, p, q
+    if (present(axes)) axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1] * 1.0_wp, [3, 3])
     m = reshape([a(1), a(4), a(5), a(4), a(2), a(6), a(5), a(6), a(3)], [3, 3])
     do sweep = 1, 10 ! converges quadratically; six sweeps reach rounding for any input
       if (max(abs(m(1, 2)), abs(m(1, 3)), abs(m(2, 3))) <= tiny(t)) exit
@@ -121,14 +137,12 @@ contains
           rotation = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1] * 1.0_wp, [3, 3])
           rotation([p, q], [p, q]) = reshape([c, -t * c, t * c, c], [2, 2])
           m = matmul(transpose(rotation), matmul(m, rotation))
+          if (present(axes)) axes = matmul(axes, rotation)
         end do
       end do
     end do
     values = [m(1, 1), m(2, 2), m(3, 3)]
-    if (values(1) > values(2)) values(1:2) = values([2, 1])
-    if (values(2) > values(3)) values(2:3) = values([3, 2])
-    if (values(1) > values(2)) values(1:2) = values([2, 1])
-  end function principal_values
+  end subroutine diagonalise
 
   !> Mobilised friction angle asin((s1 - s3)/(s1 + s3)) [deg] of a stress tensor (tension positive); 90 outside the
   !> range where it is defined.

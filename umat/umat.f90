@@ -61,7 +61,7 @@ contains
         call swap_shear(host_stress(:ntens))
         call swap_shear(host_strain(:ntens))
       end if
-      m = material_from_props(props(:n_parameters))
+      m = material_from_props(props(:n_parameters), regularised=.true.)
       call unpack_state(m, host_stress(:ntens), statev(:n_statev), state, pore_pressure)
       if (present(drot)) call turn_delta(drot, state, status)
     end if

@@ -13,7 +13,7 @@ module umat_update
   use umat_status, only: status_ok, status_out_of_domain, status_bad_state, status_bad_argument, branch_loading, &
                          branch_reversal
   use umat_tensor, only: ddot, norm
-  use umat_wolffersdorff, only: in_domain
+  use umat_wolffersdorff, only: is_admissible
   implicit none
   private
   public :: options_type, report_type, update_state
@@ -97,7 +97,7 @@ contains
       if (norm(state%delta) > slack_of_delta * m%R) return
     end if
     status = status_out_of_domain
-    if (.not. in_domain(m, state%stress, state%void_ratio)) return
+    if (.not. is_admissible(m, state%stress, state%void_ratio)) return
     status = status_ok
   end subroutine check_input
 

@@ -6,6 +6,7 @@
 !> alone. All that L, N and X can answer with lies along That, X and the unit tensor, but for a multiple of the variation itself.
 !> So every derivative is a multiple of the identity and a few dyads, which is how it is kept.
 module umat_variation
+  use umat_border, only: seen_change
   use umat_delta_path, only: delta_influence_type
   use umat_intergranular, only: intergranular_type, scale_of, share_of
   use umat_kinds, only: wp
@@ -89,8 +90,27 @@ contains
       by_stress(:, j) = linear%on(j, 1) * h%that + linear%on(j, 2) * x + linear%on(j, 3) * unit_tensor
       by_stress(j, j) = by_stress(j, j) + linear%diagonal
     end do
+    if (h%outside) call through_border(m, h, by_stress)
   by_void_ratio = linear%by_void_ratio(1) * h%that + linear%by_void_ratio(2) * x + linear%by_void_ratio(3) * unit_tensor
   end subroutine linearise
+
+  !> From changes of the stress that the model sees to changes of the stress.
+  !> @param by_stress matrix of a linear model: its columns are combined
+  pure subroutine through_border(m, h, by_stress)
+    type(material_type), intent(in) :: m
+    type(hypoplastic_type), intent(in) :: h
+    real(wp), intent(inout) :: by_stress(6, 6)
+    real(wp) :: by_seen(6, 6), change(6, 6)
+    integer :: j, k
+    change = seen_change(h%unseen, m%confinement)
+    by_seen = by_stress
+    do j = 1, 6
+      by_stress(:, j) = by_seen(:, 1) * change(1, j)
+      do k = 2, 6
+        by_stress(:, j) = by_stress(:, j) + by_seen(:, k) * change(k, j)
+      end do
+    end do
+  end subroutine through_border
 
   !> Derivative of X and weight with respect to eta, through delta and D = d + eta; theory.md Eqs. (11) and (13).
   !> @param g        direction and mobilisation of delta, which lies in the plane of the frame; not of the plain model

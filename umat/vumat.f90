@@ -149,7 +149,7 @@ contains
     if (nprops < n_parameters) return
     call get_row(props, 1, values)
     call check_props(values, status, message)
-    if (status == status_ok) m = material_from_props(values)
+    if (status == status_ok) m = material_from_props(values, regularised=.true.)
   end subroutine read_material
 
   !> The new values of a point are the old ones.

@@ -2,14 +2,16 @@
 !>
 !> Tension positive. Equation names as in docs/theory.md, section 2.
 module umat_wolffersdorff
+  use umat_border, only: seen_stress, seen_principal, share_of_N, share_of_N_slope, softening, softening_slope, &
+                         reach_of_border
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_status, only: status_ok, status_out_of_domain
   use umat_tensor, only: ddot, trace, deviator, trace_of_cube, squared, is_negative_definite, unit_tensor, &
-                         multiplicity
+                         multiplicity, rotate
   implicit none
   private
-  public :: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L, in_domain
+  public :: hypoplastic_type, hypoplastic_tensors, apply_L, matrix_of_L, in_domain, is_admissible
   public :: sensitivity_type, sensitivities
 
   !> L and N of one state. L is never stored as a matrix: L:X = identity X + dyad That (That:X).
@@ -23,6 +25,8 @@ module umat_wolffersdorff
     real(wp) :: pressure !< -tr(T - p_t 1) [stress]
     real(wp) :: power !< (pressure/h_s)^n
     real(wp) :: e_d, e_i !< limiting void ratios at this pressure
+    logical :: outside !< is the stress at or beyond the border, and T the stress that the model sees (border.f90)?
+    real(wp) :: unseen(6) !< T - p_t 1 as it is [stress]; defined where outside
   end type hypoplastic_type
 
   !> Derivatives of the scalars in L and N, for variations of stress and void ratio.
@@ -39,22 +43,63 @@ module umat_wolffersdorff
   !> nothing, exp(-10) or less.
   real(wp), parameter :: smallest_void_ratio = 1.0e-3_wp, largest_void_ratio = 100.0_wp, largest_pressure = 10.0_wp
 
+  !> From this |T*hat|^2 on F of states at the border is taken from principal values.
+  real(wp), parameter :: off_axis = 0.01_wp
   !> Below this size T*hat is rounding, and its direction means nothing.
   real(wp), parameter, public :: isotropic = 1.0e3_wp * epsilon(1.0_wp)
 
 contains
 
   !> Is a state inside the model's domain: all principal values of T - p_t 1 compressive, void ratio and pressure
-  !> within what the limiting void ratios can express?
+  !> within what the limiting void ratios can express? With a confinement: surely so, and nowhere near the border.
   pure function in_domain(m, stress, void_ratio) result(yes)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: stress(6), void_ratio
     logical :: yes
+    real(wp) :: pressure
     yes = .false.
     if (.not. (void_ratio > smallest_void_ratio .and. void_ratio < largest_void_ratio)) return
-    if (.not. is_negative_definite(stress - m%p_t * unit_tensor)) return
-    yes = 3.0_wp * m%p_t - trace(stress) < largest_pressure * m%h_s
+    if (.not. is_negative_definite(stress - m%p_t * unit_tensor, reach_of_border * m%confinement)) return
+    pressure = 3.0_wp * m%p_t - trace(stress)
+    yes = pressure < largest_pressure * m%h_s .and. pressure >= m%soft_pressure
   end function in_domain
+
+  !> Can the model answer to a state? In its domain it can; beyond, with a confinement.
+  pure function is_admissible(m, stress, void_ratio) result(yes)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: stress(6), void_ratio
+    logical :: yes
+    type(hypoplastic_type) :: h
+    real(wp) :: compression(3)
+    integer :: status
+    yes = in_domain(m, stress, void_ratio)
+    if (yes .or. .not. m%confinement > 0.0_wp) return
+    call see_stress(m, stress - m%p_t * unit_tensor, void_ratio, h, compression, status)
+    yes = status == status_ok
+  end function is_admissible
+
+  !> What the model sees of a stress that is not surely in its domain.
+  !> @param stress T - p_t 1 [stress]
+  !> @param h      the seen stress in that [stress], pressure, outside and unseen
+  !> @param compression principal values of the seen stress, compression positive [stress]
+  !> @param status status_ok or status_out_of_domain
+  pure subroutine see_stress(m, stress, void_ratio, h, compression, status)
+    type(material_type), intent(in) :: m
+    real(wp), intent(in) :: stress(6), void_ratio
+    type(hypoplastic_type), intent(inout) :: h
+    real(wp), intent(out) :: compression(3)
+    integer, intent(out) :: status
+    compression = 0.0_wp
+    status = status_out_of_domain
+    if (.not. m%confinement > 0.0_wp) return
+    if (.not. (void_ratio > smallest_void_ratio .and. void_ratio < largest_void_ratio)) return
+    if (.not. all(abs(stress) < largest_pressure * m%h_s)) return
+    h%outside = .true.
+    h%unseen = stress
+    call seen_stress(stress, m%confinement, h%that, compression)
+    h%pressure = -trace(h%that)
+    if (h%pressure < largest_pressure * m%h_s) status = status_ok
+  end subroutine see_stress
 
   !> L and N; theory.md Eqs. (1) to (10).
   !> @param m          material
@@ -67,14 +112,16 @@ contains
     real(wp), intent(in) :: stress(6), void_ratio
     type(hypoplastic_type), intent(out) :: h
     integer, intent(out) :: status
-    real(wp) :: shifted(6), deviatoric(6), shrink, e_c
+    real(wp) :: shifted(6), deviatoric(6), compression(3), shrink, e_c
 
     shifted = stress - m%p_t * unit_tensor
-    if (.not. in_domain(m, stress, void_ratio)) then
+    h%outside = .not. in_domain(m, stress, void_ratio)
+    if (h%outside) then
       h = hypoplastic_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-                           0.0_wp)
-      status = status_out_of_domain
-      return
+                           0.0_wp, .true., 0.0_wp)
+      call see_stress(m, shifted, void_ratio, h, compression, status)
+      if (status /= status_ok) return
+      shifted = h%that
     end if
     status = status_ok
 
@@ -82,6 +129,7 @@ contains
     h%that = -shifted / h%pressure
     deviatoric = deviator(h%that)
     h%F = stress_factor(deviatoric)
+    if (h%outside) h%F = stress_factor_at_border(compression / h%pressure, h%F)
 
     ! Limiting void ratios, Bauer's law: theory.md Eq. (6).
     h%power = (h%pressure / m%h_s)**m%n
@@ -93,9 +141,11 @@ contains
     ! f_d is zero at and below e_d: the densest packing does not soften (its continuation would be complex).
     h%f_d = 0.0_wp
     if (void_ratio > h%e_d) h%f_d = ((void_ratio - h%e_d) / (e_c - h%e_d))**m%alpha
+    if (h%outside) h%f_d = h%f_d * share_of_N(h%pressure, m%confinement)
     ! Eqs. (7) to (9); (pressure/h_s)^(1-n) is (pressure/h_s)/power.
     h%f_s = m%f_b0 * (1.0_wp + h%e_i) / h%e_i * (h%pressure / m%h_s) / h%power * (e_c / void_ratio)**m%beta / &
             ddot(h%that, h%that)
+    if (h%outside) h%f_s = h%f_s * softening(h%pressure, m%soft_pressure, m%n)
 
     h%identity = h%f_s * h%F**2
     h%dyad = h%f_s * m%a**2
@@ -121,6 +171,48 @@ contains
     F = sqrt(0.375_wp * square + (2.0_wp - 3.0_wp * square) / (2.0_wp + product)) - sqrt(0.375_wp) * size
   end function stress_factor
 
+  !> F from principal values, for states at the border: stress_factor loses all digits where two of them are tiny.
+  !>
+  !> With the invariants I of That, I_1 = 1: tan^2(psi) = 3 s, s = 2/3 - 2 I_2, and the quotient under the root in Eq. (5) is
+  !> 3 I_2 s/(I_2 - 9 I_3), which has no difference of nearly equal numbers but at the isotropic axis.
+  !> @param t       principal values of That
+  !> @param on_axis F by stress_factor, for states near the axis
+  pure function stress_factor_at_border(t, on_axis) result(F)
+    real(wp), intent(in) :: t(3), on_axis
+    real(wp) :: F
+    real(wp) :: second, square
+    second = t(1) * t(2) + t(2) * t(3) + t(3) * t(1)
+    square = 2.0_wp / 3.0_wp - 2.0_wp * second
+    F = on_axis
+    if (square < off_axis) return
+    F = sqrt(0.375_wp * square + 3.0_wp * second * square / (second - 9.0_wp * product(t))) - sqrt(0.375_wp * square)
+  end function stress_factor_at_border
+
+  !> Its derivative with respect to That, as a tensor.
+  !> @param h       of a state outside the domain
+  !> @param on_axis the derivative by stress_factor_slope, for states near the axis
+  pure function stress_factor_slope_at_border(m, h, on_axis) result(slope)
+    type(material_type), intent(in) :: m
+    type(hypoplastic_type), intent(in) :: h
+    real(wp), intent(in) :: on_axis(6)
+    real(wp) :: slope(6)
+    real(wp) :: t(3), axes(3, 3), two(3), second, square, both, base, square_slope(3), base_slope(3)
+    slope = on_axis
+    call seen_principal(h%unseen, m%confinement, t, axes)
+    t = t / h%pressure
+    two = [t(2) * t(3), t(3) * t(1), t(1) * t(2)]
+    second = sum(two)
+    square = 2.0_wp / 3.0_wp - 2.0_wp * second
+    if (square < off_axis) return
+    both = second - 9.0_wp * product(t)
+    base = 0.375_wp * square + 3.0_wp * second * square / both
+    square_slope = -2.0_wp*[t(2) + t(3), t(3) + t(1), t(1) + t(2)]
+    ! I_2 dI_3 - I_3 dI_2 is the square of the product of the two other principal values.
+    base_slope = 0.375_wp * square_slope + 27.0_wp * square * (two / both)**2 + 3.0_wp * second / both * square_slope
+    base_slope = base_slope / (2.0_wp * sqrt(base)) - sqrt(0.375_wp) * square_slope / (2.0_wp * sqrt(square))
+    slope = rotate([base_slope(1), base_slope(2), base_slope(3), 0.0_wp, 0.0_wp, 0.0_wp], axes)
+  end function stress_factor_slope_at_border
+
   !> Derivatives of f_s, f_d and F; theory.md Eqs. (3) to (9), differentiated.
   !> @param h L and N of a state inside the domain
   pure function sensitivities(m, void_ratio, h) result(s)
@@ -132,6 +224,7 @@ contains
     ! d e_x/d pressure = -steepness e_x for every limiting void ratio.
     steepness = m%n * h%power / h%pressure
     s%log_f_s_pressure = (1.0_wp - m%n) / h%pressure + steepness * (1.0_wp / (1.0_wp + h%e_i) - m%beta)
+    if (h%outside) s%log_f_s_pressure = s%log_f_s_pressure + softening_slope(h%pressure, m%soft_pressure, m%n)
     s%log_f_s_that = -2.0_wp * h%that / ddot(h%that, h%that)
     s%log_f_s_e = -m%beta / void_ratio
     s%f_d_pressure = 0.0_wp
@@ -139,8 +232,10 @@ contains
     if (h%f_d > 0.0_wp) then
       s%f_d_e = m%alpha * h%f_d / (void_ratio - h%e_d)
       s%f_d_pressure = s%f_d_e * steepness * void_ratio
+      if (h%outside) s%f_d_pressure = s%f_d_pressure + h%f_d * share_of_N_slope(h%pressure, m%confinement)
     end if
     s%F_that = stress_factor_slope(deviator(h%that))
+    if (h%outside) s%F_that = stress_factor_slope_at_border(m, h, s%F_that)
   end function sensitivities
 
   !> Derivative of F with respect to That, as a tensor: dF = slope:dThat.

@@ -159,7 +159,7 @@ static void test_equal_to_scalar(void **unused) {
       cloud *after = copy(before);
       int64_t scalar = 0;
       int evaluations[STRIDE];
-      hypofab_update_points(&after->material, &tolerance, &max_evaluations, instructions, after->n, STRIDE,
+      hypofab_update_points(&after->material, &tolerance, &max_evaluations, 0, instructions, after->n, STRIDE,
                             after->stress, after->delta, after->void_ratio, after->strain, after->status, evaluations,
                             &scalar);
       for (int i = 0; i < after->n; i++) {

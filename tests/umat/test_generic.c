@@ -113,10 +113,13 @@ static void check_state(const point *p, int n, const hypofab_material *material,
   assert_true(scalars[3] >= 1.0);
   assert_true(fabs(scalars[4] - hypofab_friction_angle(state->stress)) <= 1e-6);
   if (material->m_R > 0.5) assert_true(fabs(scalars[5] - tensor_norm(state->delta) / material->R) <= 1e-12);
-  assert_true(scalars[6] > 0.0);
+  assert_true(scalars[6] != 0.0);
 }
 
 /* Stress, state variables and consistent tangent of every hypothesis are those of the update. */
+/* Hosts get an answer near zero stress too. */
+static const hypofab_update_options as_host = {.regularised = 1};
+
 static void test_equals_update(void **unused) {
   (void)unused;
   for (int h = 0; h < N_HYPOTHESES; h++) {
@@ -136,7 +139,7 @@ static void test_equals_update(void **unused) {
       for (int k = 0; k < n; k++) strain[k] = (p.strain[1][k] - p.strain[0][k]) / weight(k);
       p.K[0] = 4.0;
       const int outcome = integrate(&p.data);
-      if (hypofab_update(&material, NULL, &state, strain, tangent, NULL)) {
+      if (hypofab_update(&material, &as_host, &state, strain, tangent, NULL)) {
         assert_int_equal(outcome, -1);
         continue;
       }

@@ -165,7 +165,8 @@ static int by_update(const block *b, int i, double stress[6], double statev[13])
   }
   if (material.m_R > 0.5)
     for (int k = 0; k < 6; k++) state.delta[k] = get(b, STATE_OLD, i, k) / shear_factor(k);
-  if (hypofab_update(&material, NULL, &state, strain, NULL, NULL)) return 0;
+  const hypofab_update_options as_host = {.regularised = 1};
+  if (hypofab_update(&material, &as_host, &state, strain, NULL, NULL)) return 0;
   pore_pressure -= material.K_w * (strain[0] + strain[1] + strain[2]);
   for (int k = 0; k < 6; k++) {
     stress[k] = state.stress[k] - (k < 3 ? pore_pressure : 0.0);
