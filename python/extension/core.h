@@ -25,6 +25,9 @@
 /** Numbers of a fitted ellipsoid: see core_probe_fit. */
 #define CORE_ELLIPSOID 58
 
+/** Behind each of several texts in one: f2py takes a zero byte for the end of all. */
+#define CORE_UNIT_SEPARATOR "\x1f"
+
 /** Copy a text (NULL: none) to a buffer of `size` characters, filled up with zeros. */
 void core_text(const char *text, char *buffer, size_t size);
 
@@ -34,6 +37,17 @@ void core_pack_state(const hypofab_state *state, double *numbers);
 
 /** The material of HYPOFAB_N_PARAMETERS numbers. */
 hypofab_material core_unpack_material(const double *numbers);
+
+/** CORE_FABRIC numbers: contacts, particles, rattlers, N, F, a, principal values and directions, Z, mechanical Z. */
+void core_pack_fabric(const hypofab_fabric *fabric, double *numbers);
+
+/**
+ * How a contact file is to be read. texts: id1, id2, nx, ny, nz, kind, particle file, columns, particle columns, wall
+ * ids, each with CORE_UNIT_SEPARATOR behind it; choices: dimension, wrong, duplicates, walls, normalise, threads. The
+ * format points into *owned, to be freed; HYPOFAB_NO_MEMORY otherwise.
+ */
+int core_unpack_format(const char *texts, int separator, const int *choices, long long particles,
+                       hypofab_contact_format *format, char **owned);
 
 /** Does the caller's flag, which another thread may set, ask to stop? The type of hypofab_progress; user: the flag. */
 int core_asked_to_stop(const char *what, double fraction, void *user);
@@ -73,6 +87,9 @@ int core_study_state(long long handle, int index, double *material, double *stat
 int core_study_test_run(long long handle, int index, int *stop, long long *rows, long long *report);
 void core_rows_take(long long rows, int n, int width, double *values);
 void core_rows_free(long long rows);
+int core_study_stiffness(long long handle, const long long *options, double level, int *stop, int n, double *results);
+int core_study_fit_c(long long handle, const char *tests, int n, const double *stiffness, const double *options,
+                     double *numbers, double *computed, int *open, size_t length);
 int core_study_run(long long handle, const char *directory, int *stop, size_t length);
 int core_study_envelopes(long long handle, const char *directory, int *stop, size_t length);
 
@@ -97,6 +114,19 @@ int core_fabric_rotate(const double *fabric, const double *rotation, double *tur
 int core_fabric_significance(const double *fabric, double *numbers);
 int core_fabric_correct(const double *fabric, double noise2, double *corrected);
 int core_fabric_to_delta(const double *fabric, double R, double c, const char *weight, double *numbers, size_t length);
+int core_snapshot_read(const char *path, const char *texts, int separator, const int *choices, long long particles,
+                       int ignore_images, long long *handle, size_t path_length, size_t texts_length);
+void core_snapshot_free(long long handle);
+int core_snapshot_compare(long long handle, const char *path, const char *texts, int separator, const int *choices,
+                          long long particles, const long long *options, long long *counts, double *tensors,
+                          double *numbers, long long *roses, size_t path_length, size_t texts_length);
+int core_fabric_fit(int n, const double *probes, int printed, double *fits, double *totals);
+int core_contact_directions(const char *path, const char *texts, int separator, const int *choices, long long particles,
+                            int wanted, int room, int *count, double *bins, size_t path_length, size_t texts_length);
+int core_bootstrap(const char *paths, const char *texts, int separator, const int *choices, long long particles,
+                   const long long *options, const double *map, const char *weight, int n, double *fabric,
+                   double *numbers, long long *units, double *replicates, size_t paths_length, size_t texts_length,
+                   size_t weight_length);
 void core_weight(int index, char *name, char *formula, size_t name_size, size_t formula_size);
 
 /* Designs of many runs. */

@@ -5,7 +5,7 @@
 #include "core.h"
 
 /* contacts, particles, rattlers, N, F, a, principal values, principal directions, Z, mechanical Z. */
-static void pack(const hypofab_fabric *fabric, double *numbers) {
+void core_pack_fabric(const hypofab_fabric *fabric, double *numbers) {
   const double counts[3] = {(double)fabric->contacts, (double)fabric->particles, (double)fabric->rattlers};
   memcpy(numbers, counts, sizeof counts);
   memcpy(numbers + 3, fabric->fabric, sizeof fabric->fabric);
@@ -42,54 +42,60 @@ int core_fabric_of_contacts(int dimension, int n, const double *normals, int n_i
   const hypofab_describe_options options = {.dimension = dimension};
   hypofab_description description;
   const hypofab_status status = hypofab_describe(&contacts, &options, &description);
-  if (!status) pack(&description.fabric, fabric);
+  if (!status) core_pack_fabric(&description.fabric, fabric);
   return status;
 }
 
-/* Behind each of several texts in one: f2py takes a zero byte for the end of all. */
-#define UNIT_SEPARATOR "\x1f"
-
 /* The next of several texts, cut out of them; NULL for an empty one. */
 static const char *next_text(char **texts) {
-  char *text = strsep(texts, UNIT_SEPARATOR);
+  char *text = strsep(texts, CORE_UNIT_SEPARATOR);
   return text && *text ? text : NULL;
+}
+
+int core_unpack_format(const char *texts, int separator, const int *choices, long long particles,
+                       hypofab_contact_format *format, char **owned) {
+  char *rest = *owned = strdup(texts);
+  if (!rest) return HYPOFAB_NO_MEMORY;
+  *format = (hypofab_contact_format){.separator = (char)separator,
+                                     .particles = particles,
+                                     .dimension = choices[0],
+                                     .wrong = (hypofab_treatment)choices[1],
+                                     .duplicates = (hypofab_treatment)choices[2],
+                                     .walls = (hypofab_walls)choices[3],
+                                     .normalise = choices[4],
+                                     .threads = choices[5]};
+  const char **const members[] = {&format->id1,
+                                  &format->id2,
+                                  &format->nx,
+                                  &format->ny,
+                                  &format->nz,
+                                  &format->kind,
+                                  &format->particle_file,
+                                  &format->columns,
+                                  &format->particle_columns,
+                                  &format->wall_ids};
+  for (size_t i = 0; i < sizeof members / sizeof *members; ++i) *members[i] = next_text(&rest);
+  return HYPOFAB_OK;
 }
 
 int core_fabric_read(const char *path, const char *texts, int separator, const int *choices, long long particles,
                      double *fabric, long long *report, size_t path_length, size_t texts_length) {
   (void)path_length;
   (void)texts_length;
-  char *all = strdup(texts), *rest = all;
-  if (!all) return HYPOFAB_NO_MEMORY;
-  hypofab_contact_format format = {.separator = (char)separator,
-                                   .particles = particles,
-                                   .dimension = choices[0],
-                                   .wrong = (hypofab_treatment)choices[1],
-                                   .duplicates = (hypofab_treatment)choices[2],
-                                   .walls = (hypofab_walls)choices[3],
-                                   .normalise = choices[4],
-                                   .threads = choices[5]};
-  const char **const members[] = {&format.id1,
-                                  &format.id2,
-                                  &format.nx,
-                                  &format.ny,
-                                  &format.nz,
-                                  &format.kind,
-                                  &format.particle_file,
-                                  &format.columns,
-                                  &format.particle_columns,
-                                  &format.wall_ids};
-  for (size_t i = 0; i < sizeof members / sizeof *members; ++i) *members[i] = next_text(&rest);
+  char *owned;
+  hypofab_contact_format format;
+  int status = core_unpack_format(texts, separator, choices, particles, &format, &owned);
+  if (status) return status;
   hypofab_fabric_sum *sum;
-  hypofab_status status = hypofab_fabric_sum_read(path, &format, &sum);
-  free(all);
+  status = hypofab_fabric_sum_read(path, &format, &sum);
+  free(owned);
   if (status) return status;
   hypofab_fabric found;
   hypofab_sample sample;
   status = hypofab_fabric_sum_result(sum, &found, &sample);
   hypofab_fabric_sum_free(sum);
   if (status) return status;
-  pack(&found, fabric);
+  core_pack_fabric(&found, fabric);
   report[0] = sample.report.listed;
   report[1] = sample.report.used;
   return status;
@@ -98,14 +104,14 @@ int core_fabric_read(const char *path, const char *texts, int separator, const i
 int core_fabric_from_tensor(const double *tensor, double *fabric) {
   hypofab_fabric found;
   const hypofab_status status = hypofab_fabric_from_tensor(tensor, &found);
-  if (!status) pack(&found, fabric);
+  if (!status) core_pack_fabric(&found, fabric);
   return status;
 }
 
 int core_fabric_rotate(const double *fabric, const double *rotation, double *turned) {
   hypofab_fabric found = unpack(fabric);
   const hypofab_status status = hypofab_fabric_rotate(&found, (const double(*)[3])rotation, &found);
-  if (!status) pack(&found, turned);
+  if (!status) core_pack_fabric(&found, turned);
   return status;
 }
 
@@ -125,7 +131,7 @@ int core_fabric_correct(const double *fabric, double noise2, double *corrected) 
   const hypofab_fabric given = unpack(fabric);
   hypofab_fabric found;
   const hypofab_status status = hypofab_fabric_correct(&given, noise2, &found);
-  if (!status) pack(&found, corrected);
+  if (!status) core_pack_fabric(&found, corrected);
   return status;
 }
 

@@ -10,6 +10,10 @@ from hypofab.errors import HypofabError, InputError, InternalError, PhysicalErro
 
 _HOMES = {
     "decks": ("Step", "Study", "Test", "TestResult", "element_test", "run"),
+    "fabric_changes": (
+        *("Directions", "Estimate", "FabricChange", "FabricResponse", "MechanismFit", "Rose"),
+        *("changes", "directions", "fit_fabric_response"),
+    ),
     "fabrics": (
         *("Fabric", "InitialDelta", "Significance", "fabric_of_file", "fabric_of_normals", "fabric_of_tensor"),
         "weights",
@@ -20,7 +24,7 @@ _HOMES = {
         *("Branch", "Increment", "LinearParts", "Points", "Rate", "State"),
         *("linear_parts", "rate", "update", "update_many"),
     ),
-    "plots": ("plot", "plot_envelopes", "plot_fabrics"),
+    "plots": ("plot", "plot_directions", "plot_envelopes", "plot_fabrics"),
     "probing": (
         *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability"),
         "triangles",
@@ -28,6 +32,7 @@ _HOMES = {
     "sampling": ("quasi_random",),
     "sweeps.sobol_indices": ("SobolIndices", "sobol", "sobol_indices"),
     "sweeps.sweep": ("SweepResult", "read_sweep", "sweep"),
+    "uncertainty": ("FitOfC", "Interval", "Stiffness", "Uncertainty", "bootstrap"),
     "tensors": ("COMPONENTS", "components", "matrix"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}

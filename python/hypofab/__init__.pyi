@@ -11,6 +11,15 @@ from hypofab.errors import InputError as InputError
 from hypofab.errors import InternalError as InternalError
 from hypofab.errors import PhysicalError as PhysicalError
 from hypofab.errors import Status as Status
+from hypofab.fabric_changes import Directions as Directions
+from hypofab.fabric_changes import Estimate as Estimate
+from hypofab.fabric_changes import FabricChange as FabricChange
+from hypofab.fabric_changes import FabricResponse as FabricResponse
+from hypofab.fabric_changes import MechanismFit as MechanismFit
+from hypofab.fabric_changes import Rose as Rose
+from hypofab.fabric_changes import changes as changes
+from hypofab.fabric_changes import directions as directions
+from hypofab.fabric_changes import fit_fabric_response as fit_fabric_response
 from hypofab.fabrics import Fabric as Fabric
 from hypofab.fabrics import InitialDelta as InitialDelta
 from hypofab.fabrics import Significance as Significance
@@ -35,6 +44,7 @@ from hypofab.model import rate as rate
 from hypofab.model import update as update
 from hypofab.model import update_many as update_many
 from hypofab.plots import plot as plot
+from hypofab.plots import plot_directions as plot_directions
 from hypofab.plots import plot_envelopes as plot_envelopes
 from hypofab.plots import plot_fabrics as plot_fabrics
 from hypofab.probing import Ellipsoid as Ellipsoid
@@ -56,3 +66,8 @@ from hypofab.sweeps.sweep import sweep as sweep
 from hypofab.tensors import COMPONENTS as COMPONENTS
 from hypofab.tensors import components as components
 from hypofab.tensors import matrix as matrix
+from hypofab.uncertainty import FitOfC as FitOfC
+from hypofab.uncertainty import Interval as Interval
+from hypofab.uncertainty import Stiffness as Stiffness
+from hypofab.uncertainty import Uncertainty as Uncertainty
+from hypofab.uncertainty import bootstrap as bootstrap

@@ -92,3 +92,39 @@ def weight(index: int, /) -> tuple[bytes, bytes]: ...
 def quasi_random(sequence: bytes, skip: int, n: int, dim: int, /) -> tuple[int, NDArray[np.float64]]: ...
 def quantiles(shape: int, parameters: ArrayLike, probabilities: ArrayLike, /) -> tuple[int, NDArray[np.float64]]: ...
 def probabilities(shape: int, parameters: ArrayLike, values: ArrayLike, /) -> tuple[int, NDArray[np.float64]]: ...
+def snapshot_read(
+    path: bytes, texts: bytes, separator: int, choices: ArrayLike, particles: int, ignore_images: int, /
+) -> tuple[int, NDArray[np.int64]]: ...
+def snapshot_free(handle: int, /) -> None: ...
+def snapshot_compare(
+    handle: int,
+    path: bytes,
+    texts: bytes,
+    separator: int,
+    choices: ArrayLike,
+    particles: int,
+    options: ArrayLike,
+    /,
+) -> tuple[int, NDArray[np.int64], NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]: ...
+def fabric_fit(probes: ArrayLike, printed: int, /) -> tuple[int, NDArray[np.float64], NDArray[np.float64]]: ...
+def contact_directions(
+    path: bytes, texts: bytes, separator: int, choices: ArrayLike, particles: int, wanted: int, room: int, /
+) -> tuple[int, NDArray[np.intc], NDArray[np.float64]]: ...
+def bootstrap(
+    paths: bytes,
+    texts: bytes,
+    separator: int,
+    choices: ArrayLike,
+    particles: int,
+    options: ArrayLike,
+    map: ArrayLike,
+    weight: bytes,
+    n: int,
+    /,
+) -> tuple[int, NDArray[np.float64], NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]: ...
+def study_stiffness(
+    handle: int, options: ArrayLike, level: float, stop: NDArray[np.intc], n: int, /
+) -> tuple[int, NDArray[np.float64]]: ...
+def study_fit_c(
+    handle: int, tests: bytes, stiffness: ArrayLike, options: ArrayLike, /
+) -> tuple[int, NDArray[np.float64], NDArray[np.float64], NDArray[np.intc]]: ...

@@ -19,6 +19,7 @@ from hypofab.errors import HypofabError, InputError, PhysicalError, Status
 from hypofab.library import check, core, interruptible, last_message, text
 from hypofab.materials import Material
 from hypofab.model import State
+from hypofab.uncertainty import FitOfC, Stiffness, stiffnesses, units_and_replicates
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -179,6 +180,55 @@ class Study:
     def write_envelopes(self, directory: str | os.PathLike) -> None:
         """Compute every envelope into files as `hypofab envelope -o` does."""
         self._into(core.study_envelopes, directory)
+
+    def stiffness(
+        self,
+        *,
+        replicates: int = 0,
+        seed: int = 1,
+        blocks: int = 0,
+        level: float = 0.95,
+        corrected: bool = False,
+    ) -> dict[str, Stiffness]:
+        """Directional stiffness of every test, as `hypofab stiffness` prints it.
+
+        replicates: of a bootstrap of the states' contact lists, 20 or more (0: none); blocks: drawn in so many cubes
+        along each edge instead of contact by contact. corrected: deltas from fabrics without noise.
+        """
+        options = (*units_and_replicates("blocks" if blocks else "contacts", replicates, seed, blocks), int(corrected))
+        count = len(self.tests)
+
+        def call(stop: NDArray[np.intc]) -> NDArray[np.float64]:
+            status, numbers = core.study_stiffness(self._handle, options, level, stop, count)
+            check(status)
+            return numbers
+
+        return dict(zip(self.tests, stiffnesses(interruptible(call)), strict=True))
+
+    def fit_c(
+        self,
+        stiffness: Mapping[str, float],
+        *,
+        lower: float = 0.0,
+        upper: float = 0.0,
+        level: float = 0.95,
+        error: float = 0.0,
+        corrected: bool = False,
+    ) -> FitOfC:
+        """The c that matches given stiffnesses of tests best, in ratio, as `hypofab fit-c` does.
+
+        lower, upper: c is sought between them (0: 1e-3 and 10). error: relative standard error of each given stiffness
+        (0: from the residuals).
+        """
+        names = b"\x1f".join(name.encode() for name in stiffness)
+        given = np.array(list(stiffness.values()), dtype=np.float64)
+        if not len(given):
+            raise InputError("no stiffness given, expected 2 or more", Status.BAD_ARGUMENT)
+        options = (lower, upper, level, error, float(corrected))
+        status, numbers, computed, ends = core.study_fit_c(self._handle, names, given, options)
+        check(status)
+        found = dict(zip(stiffness, map(float, computed), strict=True))
+        return FitOfC(*map(float, numbers), found, *map(bool, ends))
 
     def _into(self, call: Any, directory: str | os.PathLike) -> None:  # noqa: ANN401 - a function of the extension
         interruptible(lambda stop: check(call(self._handle, os.fsencode(directory), stop)))

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -142,8 +142,20 @@ def fabric_of_normals(
     return Fabric._unpack(numbers)
 
 
-def fabric_of_file(
-    path: str | os.PathLike,
+def fabric_of_file(path: str | os.PathLike, **options: Any) -> Fabric:  # noqa: ANN401 - those of reading
+    """Fabric of a contact file, streamed; docs/contact_files.md.
+
+    Options: particles: N_p or a particle file. columns: names or numbers (from 1) of id1, id2, nx, ny, nz. kind: the
+    format, where the file does not show it; more_columns, particle_columns, separator. dimension: 2 for disks. wrong,
+    duplicates: "refuse" or "skip" such contacts, or "keep" duplicates. walls: None, "out" or "in"; wall_ids: "0-5,17".
+    normalise: normals of any length. threads: of reading; 0: all.
+    """
+    status, numbers, _ = core.fabric_read(os.fsencode(path), *reading(**options))
+    check(status)
+    return Fabric._unpack(numbers)
+
+
+def reading(
     *,
     particles: int | str | os.PathLike | None = None,
     columns: Mapping[str, str | int] | None = None,
@@ -158,13 +170,8 @@ def fabric_of_file(
     wall_ids: str = "",
     normalise: bool = False,
     threads: int = 0,
-) -> Fabric:
-    """Fabric of a contact file, streamed; docs/contact_files.md.
-
-    particles: N_p or a particle file. columns: names or numbers (from 1) of id1, id2, nx, ny, nz. kind: the format,
-    where the file does not show it. wrong, duplicates: "refuse" or "skip" such contacts, or "keep" duplicates.
-    walls: None, "out" or "in"; wall_ids: "0-5,17".
-    """
+) -> tuple[bytes, int, tuple[int, ...], int]:
+    """Options of fabric_of_file as the extension takes them: texts, separator, choices, particles."""
     named = dict(columns or {})
     unknown = set(named) - set(_COLUMNS)
     if unknown:
@@ -177,15 +184,12 @@ def fabric_of_file(
         raise InputError(f"separator = {separator!r}, expected one character", Status.BAD_ARGUMENT)
     file = "" if particles is None or isinstance(particles, int | np.integer) else os.fspath(particles)
     texts = [*(str(named.get(name, "")) for name in _COLUMNS), kind, file, more_columns, particle_columns, wall_ids]
-    status, numbers, _ = core.fabric_read(
-        os.fsencode(path),
+    return (
         b"".join(os.fsencode(one) + b"\x1f" for one in texts),
         ord(separator) if separator else 0,
         choices,
         0 if file or particles is None else int(particles),
     )
-    check(status)
-    return Fabric._unpack(numbers)
 
 
 def fabric_of_tensor(tensor: ArrayLike) -> Fabric:

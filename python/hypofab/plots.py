@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from hypofab import cycles, fabric_figures, figures, path_figures, probe_figures, probe_surfaces, probes, results, vtp
 from hypofab.decks import TestResult
 from hypofab.errors import InputError, Status
+from hypofab.fabric_changes import Directions
 from hypofab.fabric_results import Result
 from hypofab.fabrics import Fabric
 from hypofab.measured import Measured, read_measured
@@ -98,6 +99,33 @@ def plot_fabrics(samples: Mapping[str, Fabric], *, up: str = "z") -> Figure:
         for name, one in samples.items()
     ]
     return fabric_figures.surfaces(data, up=up)
+
+
+def plot_directions(directions: Directions, label: str = "sample") -> Figure:
+    """Contact directions on the sphere with the density of second order; in the plane as a rose with its fit."""
+    bins = [
+        {
+            "polar": polar,
+            "azimuth": azimuth,
+            "density": density,
+            "normal_force": None,
+            "shear_force": (None, None, None),
+        }
+        for polar, azimuth, density in zip(directions.polar, directions.azimuth, directions.density, strict=True)
+    ]
+    fabric = directions.fabric
+    x, y, _ = fabric.principal_directions[0]
+    fit = {"a_n": fabric.anisotropy, "phi_n": np.degrees(np.arctan2(y, x)), "mean_normal_force": None}
+    data = {
+        "bins": bins,
+        "contacts": int(directions.contacts.sum()),
+        "anisotropy": fabric.anisotropy,
+        "deviatoric_fabric": list(fabric.deviatoric_fabric),
+        "principal_directions": fabric.principal_directions,
+        "fit": fit,
+    }
+    draw = fabric_figures.sphere if directions.dimension == 3 else fabric_figures.plane_roses
+    return draw(Result(label, Path(), data))
 
 
 def _data(measured: Measured | Mapping[str, str | Path]) -> Measured:
