@@ -26,8 +26,8 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 
 
 def is_sweep(directory: Path) -> bool:
-    """Does a folder hold results of a sweep?"""
-    return (directory / "manifest.json").exists() and (directory / "results.parquet").exists()
+    """Does a folder hold a sweep, at its end or on its way?"""
+    return (directory / "manifest.json").exists()
 
 
 def run(options: argparse.Namespace, save: Callable[[Figure, Path], None]) -> int:

@@ -28,7 +28,7 @@ def write(folder: Path, **changed: object) -> Path:
 
 def test_results_indices_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write(tmp_path, design=SOBOL)
-    assert main(["sweep", str(path), "-o", str(tmp_path / "out"), "--workers", "1", "--figures"]) == 0
+    assert main(["sweep", str(path), "-o", str(tmp_path / "out"), "--workers", "1"]) == 0
     printed = capsys.readouterr()
     assert "32 runs, 32 done" in printed.out
     assert "first order" in printed.out
@@ -36,22 +36,20 @@ def test_results_indices_and_figures(tmp_path: Path, capsys: pytest.CaptureFixtu
     indices = json.loads((tmp_path / "out" / "sobol.json").read_text())
     assert indices["q"]["inputs"] == ["e", "phi"]
     assert len(indices["curve"]["total"][0]) == 5
-    for name in ("scatter", "histograms", "fan_curve", "sobol"):
-        drawn = (tmp_path / "out" / f"{name}.png").read_bytes()
-        assert len(drawn) > 1000
-        (tmp_path / "out" / f"{name}.png").unlink()
     assert main(["plot", str(tmp_path / "out")]) == 0
-    assert (tmp_path / "out" / "sobol.png").read_bytes() == drawn
+    for name in ("scatter", "histograms", "fan_curve", "sobol"):
+        assert (tmp_path / "out" / f"{name}.png").stat().st_size > 1000
 
 
 def test_reasons_are_told_and_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     inputs = {"e": {"path": "states[start].void_ratio", "values": [0.7, -1, 0.8]}}
     path = write(tmp_path, inputs=inputs, design={"kind": "grid"})
-    assert main(["sweep", str(path), "-o", str(tmp_path / "out"), "--executor", "threads"]) == 0
+    assert main(["sweep", str(path), "-o", str(tmp_path / "out"), "--executor", "threads", "--figures"]) == 0
     printed = capsys.readouterr().out
     assert "3 runs, 2 done" in printed
     assert "  1 x " in printed
     assert "void_ratio = -1" in printed
+    assert (tmp_path / "out" / "scatter.png").exists()
 
 
 def test_bad_input_is_exit_code_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

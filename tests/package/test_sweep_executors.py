@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -52,35 +52,60 @@ def test_dask_with_two_workers(alone: hypofab.SweepResult, tmp_path: Path) -> No
             assert_same(hypofab.sweep(deck(), INPUTS, DESIGN, OUTPUTS, executor=executor), alone)
 
 
-def test_mpi_with_two_ranks(alone: hypofab.SweepResult, tmp_path: Path) -> None:
+def mpi(ranks: int, *arguments: str) -> subprocess.CompletedProcess:
+    """Run `hypofab` on some ranks, also as root and with more ranks than processors."""
     mpiexec = shutil.which("mpiexec")
     if mpiexec is None:
         pytest.skip("no mpiexec: install openmpi-bin")
+    allowed = dict.fromkeys(("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"), "1")
+    environment = os.environ | allowed | {"OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    command = [mpiexec, "-n", str(ranks), sys.executable, "-m", "hypofab", *arguments]
+    return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_mpi_with_two_ranks(alone: hypofab.SweepResult, tmp_path: Path) -> None:
     sweep = {"deck": deck(), "inputs": INPUTS, "design": DESIGN, "outputs": OUTPUTS}
     (tmp_path / "sweep.yaml").write_text(deck_text(sweep))
-    allowed = {
-        "OMPI_ALLOW_RUN_AS_ROOT": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-        "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    }
-    command = [
-        mpiexec,
-        "-n",
-        "2",
-        sys.executable,
-        "-m",
-        "hypofab",
-        "sweep",
-        "sweep.yaml",
-        "-o",
-        "out",
-        "--executor",
-        "mpi",
-    ]
-    done = subprocess.run(command, cwd=tmp_path, env=os.environ | allowed, capture_output=True, text=True, check=False)
+    done = mpi(2, "sweep", str(tmp_path / "sweep.yaml"), "-o", str(tmp_path / "out"), "--executor", "mpi")
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("30 runs, 30 done") == 1
     assert_same(hypofab.read_sweep(tmp_path / "out"), alone)
+
+
+def test_mpi_with_a_wrong_file_ends(tmp_path: Path) -> None:
+    (tmp_path / "sweep.yaml").write_text("deck: nothing.yaml\n")
+    arguments = ["sweep", str(tmp_path / "sweep.yaml"), "-o", str(tmp_path / "out"), "--executor", "mpi"]
+    done = mpi(2, *arguments)
+    assert done.returncode == 2
+    assert "sweep.yaml: key 'inputs' is missing" in done.stderr
+
+
+def test_a_function_that_processes_cannot_import() -> None:
+    inputs = {"x": {"values": [1, 2]}}
+    with pytest.raises(hypofab.InputError, match="processes need a function that can be imported"):
+        hypofab.sweep(lambda point: point["x"], inputs, {"kind": "grid"}, ["y"], workers=2)
+    assert hypofab.sweep(lambda point: point["x"], inputs, {"kind": "grid"}, ["y"], workers=1)["y"].tolist() == [1, 2]
+
+
+class Failing(ThreadPoolExecutor):
+    """Takes two chunks."""
+
+    taken = 0
+
+    def submit(self, *arguments: object) -> Future:
+        """Take one more."""
+        self.taken += 1
+        if self.taken > 2:
+            raise RuntimeError("no more")
+        return super().submit(*arguments)
+
+
+def test_an_executor_that_fails_ends_the_sweep_and_another_goes_on(tmp_path: Path) -> None:
+    inputs = {"x": {"values": [0, 1, 2, 4, 6, 8]}}
+    with Failing(1) as bad, pytest.raises(hypofab.InternalError, match="the executor failed: RuntimeError: no more"):
+        hypofab.sweep(fragile, inputs, {"kind": "grid"}, ["y"], executor=bad, workers=1, into=tmp_path / "s")
+    result = hypofab.sweep(fragile, inputs, {"kind": "grid"}, ["y"], workers=1, into=tmp_path / "s")
+    assert np.array_equal(result["y"], result["x"])
 
 
 def test_a_run_that_ends_its_process_is_a_row(tmp_path: Path) -> None:

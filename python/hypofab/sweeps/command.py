@@ -5,7 +5,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -15,7 +15,8 @@ from hypofab.sweeps.plan import read_plan
 from hypofab.sweeps.running import processors
 from hypofab.sweeps.sobol_indices import SobolIndices, sobol_indices, sobol_table
 from hypofab.sweeps.source import read_yaml
-from hypofab.sweeps.sweep import SweepResult, read_sweep, run_plan
+from hypofab.sweeps.store import read_folder
+from hypofab.sweeps.sweep import SweepResult, run_plan
 
 Save = Callable[[Figure, Path], None]
 DONE, STOPPED = 0, 1
@@ -33,8 +34,8 @@ def run(options: argparse.Namespace, save: Save) -> int:
                 plan, into=options.output, executor=executor, workers=options.workers, progress=progress
             )  # fmt: skip
         except KeyboardInterrupt:
-            result = read_sweep(options.output)
-            print(f"interrupted: {len(result)} of {plan.points.num_rows} runs are done; the same command goes on")
+            done = read_folder(options.output, plan.schema).num_rows
+            print(f"interrupted: {done} of {plan.points.num_rows} runs are done; the same command goes on")
             return STOPPED
     report(result)
     indices = _write_sobol(result, options.output)
@@ -48,32 +49,36 @@ def _executor(options: argparse.Namespace) -> Iterator[tuple[Executor | None, bo
     """The executor that is asked for, None: processes; and whether this process has done its part by serving it."""
     if options.scheduler and options.executor != "dask":
         raise InputError("--scheduler has a meaning with --executor dask alone", Status.BAD_ARGUMENT)
-    if options.executor == "threads":
-        with ThreadPoolExecutor(options.workers or processors()) as threads:
-            yield threads, False
-    elif options.executor == "dask":
-        from distributed import Client, LocalCluster
+    with ExitStack() as stack:
+        executor, serves = None, False
+        if options.executor == "threads":
+            executor = stack.enter_context(ThreadPoolExecutor(options.workers or processors()))
+        elif options.executor == "dask":
+            executor = _dask(options, stack)
+        elif options.executor == "mpi":
+            executor = _mpi(stack)
+            serves = executor is None
+        yield executor, serves
 
-        where = options.scheduler or LocalCluster(
-            n_workers=options.workers or processors(), threads_per_worker=1, dashboard_address=None
-        )
-        with Client(where) as client:
-            yield client.get_executor(pure=False), False
-        if not options.scheduler:
-            where.close()
-    elif options.executor == "mpi":
-        from mpi4py import MPI
-        from mpi4py.futures import MPICommExecutor
 
-        if MPI.COMM_WORLD.size < 2:
-            raise InputError("one rank, expected two or more: mpiexec -n 3 hypofab sweep ...", Status.BAD_ARGUMENT)
-        with MPICommExecutor(MPI.COMM_WORLD, root=0) as ranks:
-            if ranks is not None:
-                yield ranks, False
-        if ranks is None:
-            yield None, True
-    else:
-        yield None, False
+def _dask(options: argparse.Namespace, stack: ExitStack) -> Executor:
+    from distributed import Client, LocalCluster
+
+    where = options.scheduler
+    if not where:
+        workers = options.workers or processors()
+        where = stack.enter_context(LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None))
+    return stack.enter_context(Client(where)).get_executor(pure=False)
+
+
+def _mpi(stack: ExitStack) -> Executor | None:
+    """On rank 0 the others as an executor; on those None, when there is nothing more to do."""
+    from mpi4py import MPI
+    from mpi4py.futures import MPICommExecutor
+
+    if MPI.COMM_WORLD.size < 2:
+        raise InputError("one rank, expected two or more: mpiexec -n 3 hypofab sweep ...", Status.BAD_ARGUMENT)
+    return stack.enter_context(MPICommExecutor(MPI.COMM_WORLD, root=0))
 
 
 def report(result: SweepResult) -> None:
@@ -107,7 +112,8 @@ def draw(result: SweepResult, folder: Path, save: Save, indices: dict[str, Sobol
     """All figures of a sweep, beside its results."""
     from hypofab.sweeps.figures import figures_of
 
-    if indices is None and result.manifest["sweep"]["design"]["kind"] == "saltelli":
+    told = result.manifest["sweep"]
+    if indices is None and told["design"]["kind"] == "saltelli" and len(result) == told["runs"]:
         indices = sobol_indices(result)
     for name, figure in figures_of(result, indices).items():
         save(figure, folder / name)

@@ -92,8 +92,8 @@ def _of_deck(root: Node, entries: Mapping[str, Node], deck: Mapping[str, Any], f
     outputs = read_outputs(entries["outputs"], tests)
     model = DeckModel(deck, folder, {one.name: one.paths for one in inputs}, outputs)
     _try(root, model, inputs, design)
-    files = {name: _digest(name) for name in sorted(_files(deck, folder))}
-    return _plan(root, entries, model, inputs, design, outputs, {"deck": deck, "files": files})
+    what = {"deck": deck, "files_sha256": _files(deck, folder)}
+    return _plan(root, entries, model, inputs, design, outputs, what)
 
 
 def _of_function(root: Node, entries: Mapping[str, Node], folder: str) -> Plan:
@@ -157,16 +157,18 @@ def _try(root: Node, model: DeckModel, inputs: tuple[Input, ...], design: Design
     root.fail(f"{len(refusals)} runs were tried, and the deck of none is good; of the first: {reason}")
 
 
-def _files(value: Any, folder: str, key: str = "") -> set[str]:  # noqa: ANN401 - parts of a deck
-    """Names of files that the deck reads."""
+def _files(value: Any, folder: str, key: str = "") -> dict[str, str]:  # noqa: ANN401 - parts of a deck
+    """Files that the deck reads, by the names it has for them, and what is in them."""
     if isinstance(value, Mapping):
-        return set().union(*(_files(inside, folder, str(name)) for name, inside in value.items()))
-    if isinstance(value, list | tuple):
-        return set().union(*(_files(inside, folder) for inside in value))
-    if key in ("contacts", "particles", "file") and isinstance(value, str | os.PathLike):
+        parts = [_files(inside, folder, str(name)) for name, inside in value.items()]
+    elif isinstance(value, list | tuple):
+        parts = [_files(inside, folder) for inside in value]
+    elif key in ("contacts", "particles", "file") and isinstance(value, str | os.PathLike):
         path = os.path.join(folder, value)
-        return {path} if os.path.isfile(path) else set()
-    return set()
+        parts = [{os.fspath(value): _digest(path)}] if os.path.isfile(path) else []
+    else:
+        parts = []
+    return {name: digest for part in parts for name, digest in part.items()}
 
 
 def _digest(path: str) -> str:

@@ -3,6 +3,7 @@
 import multiprocessing
 import multiprocessing.connection
 import os
+import pickle
 import signal
 import threading
 import time
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from hypofab.errors import Status
+from hypofab.errors import InputError, InternalError, Status
 from hypofab.sweeps.models import Model, Outcome, Point, row_of, run_points
 
 _CHUNK_SECONDS = 0.25
@@ -67,11 +68,19 @@ def run_on(
 ) -> Iterator[Rows]:
     """On an executor of the caller's. workers: how many it has; None: not known."""
     count = workers or _UNKNOWN_WORKERS
-    yield from _drive(lambda runs: executor.submit(run_points, model, runs), _Queue(points, pending, count), count)
+    try:
+        yield from _drive(lambda runs: executor.submit(run_points, model, runs), _Queue(points, pending, count), count)
+    except Exception as error:  # a run does not raise: the executor has lost one, or cannot send it
+        raise InternalError(f"the executor failed: {type(error).__name__}: {error}") from error
 
 
 def run_in_processes(model: Model, points: pa.Table, pending: np.ndarray, workers: int) -> Iterator[Rows]:
     """In processes of this machine. A run that ends its process is a row with that reason, and the others go on."""
+    try:
+        pickle.dumps(model)
+    except Exception as error:
+        expected = "a function that can be imported, or workers=1, or threads"
+        raise InputError(f"{error}; processes need {expected}", Status.BAD_ARGUMENT) from error
     queue = _Queue(points, pending, workers)
     while queue:
         in_flight: dict[Future, list[Run]] = {}

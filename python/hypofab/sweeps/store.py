@@ -152,7 +152,10 @@ class Store:
         """One table of all runs, in their order."""
         self.flush()
         if not self.results.exists():
-            write_whole(self.results, self.read())
+            table = self.read()
+            if not np.array_equal(table["run"].to_numpy(), np.arange(self.points.num_rows)):
+                raise InternalError(f"{self.folder}: rows are missing or twice there", Status.INTERNAL_ERROR)
+            write_whole(self.results, table)
         for part in self.parts():
             part.unlink()
         with suppress(OSError):
@@ -168,7 +171,10 @@ def read_folder(folder: Path, schema: pa.Schema | None = None) -> pa.Table:
     """The results in a folder, or what there is of them so far."""
     if (folder / "results.parquet").exists():
         return parquet.read_table(folder / "results.parquet")
-    tables = [parquet.read_table(path) for path in sorted((folder / "rows").glob("part-*.parquet"))]
+    try:
+        tables = [parquet.read_table(path) for path in sorted((folder / "rows").glob("part-*.parquet"))]
+    except FileNotFoundError:  # the sweep has just come to its end
+        return parquet.read_table(folder / "results.parquet")
     if not tables and schema is None:
         raise InputError(f"{folder}: no results of a sweep", Status.BAD_FILE)
     return pa.concat_tables(tables).sort_by("run") if tables else schema.empty_table()

@@ -4,7 +4,7 @@ import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,12 @@ from hypofab.sweeps.running import Rows, processors, run_here, run_in_processes,
 from hypofab.sweeps.source import Source, read_yaml
 from hypofab.sweeps.store import Store, read_folder, table_of
 from hypofab.tensors import Array
+
+
+class _Bar(tqdm):
+    """Without the thread that tqdm watches slow bars by: processes are forked beside it."""
+
+    monitor_interval = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,9 +129,12 @@ def run_plan(
         done = store.done() if store else np.zeros(0, dtype=np.int64)
         pending = np.setdiff1d(np.arange(points.num_rows), done)
         hidden = None if progress is None else not progress
-        with tqdm(total=points.num_rows, initial=len(done), unit="run", disable=hidden, smoothing=0.1) as bar:
+        with (
+            closing(_runs(plan, pending, executor, workers)) as runs,
+            _Bar(total=points.num_rows, initial=len(done), unit="run", disable=hidden, smoothing=0.1) as bar,
+        ):
             failed = 0
-            for rows in _runs(plan, pending, executor, workers):
+            for rows in runs:
                 store.add(rows) if store else kept.extend(rows)
                 failed += sum(row["status"] != 0 for row in rows)
                 if failed:
