@@ -5,7 +5,7 @@
 !> which is continuous with its slope. So the rate of stress is, everywhere, that of a state of the domain, and continuous;
 !> inside it is the model's own. Where all three are tensile the model sees the isotropic stress -c 1, whose stiffness is tiny.
 !> There N fades out as well: N would make the stiffness in closing a gap less than that in opening it, and the grains would
-!> not meet again where they parted. docs/theory.md, section 4.
+!> not meet again where they parted. docs/umat.md, near zero stress.
 module umat_border
   use umat_kinds, only: wp
   use umat_tensor, only: diagonalise, rotate

@@ -10,8 +10,9 @@ program test_variation
   use umat_rate, only: rate_of_stress
   use umat_sands, only: sands, find_sand
   use umat_status, only: status_ok, branch_plain, branch_loading, branch_reversal
-  use umat_tensor, only: norm, deviator, ddot, trace, unit_tensor
-  use umat_variation, only: linear_rate_type, linear_rate, operand_influence_type, operand_influence, direct_parts, part_d, &
+  use umat_tensor, only: norm, deviator, ddot, trace, unit_tensor, diagonalise, rotate
+  use umat_variation, only: linear_rate_type, linear_rate, linearise, operand_influence_type, operand_influence, &
+                            direct_parts, part_d, &
                             part_normal, part_that, part_unit
   use umat_wolffersdorff, only: hypoplastic_type, hypoplastic_tensors, sensitivities
   implicit none
@@ -40,6 +41,14 @@ program test_variation
       write (*, '(a, es8.1, a, i0, a, es9.2)') 'deviator ', deviators(i), ' p, branch ', branches(j), ': ', worst
       if (.not. worst < bound) failures = failures + 1
     end do
+  end do
+  do j = 1, size(branches)
+    worst = 0.0_wp
+    do k = 1, 120
+      worst = max(worst, error_at_border(branches(j), find_sand(trim(names(1 + modulo(k, 3))))))
+    end do
+    write (*, '(a, i0, a, es9.2)') 'at the border, branch ', branches(j), ': ', worst
+    if (.not. worst < bound) failures = failures + 1
   end do
   deallocate (seed)
   if (failures > 0) error stop 'a derivative of the rate is wrong'
@@ -100,6 +109,45 @@ contains
     end do
   end function error_of_state
 
+  !> The same for the derivative with respect to stress alone, at and beyond the border of the domain, where hosts get an answer.
+  function error_at_border(branch, sand) result(error)
+    integer, intent(in) :: branch, sand
+    real(wp) :: error
+    type(material_type) :: m
+    type(hypoplastic_type) :: tensors
+    real(wp) :: stress(6), delta(6), d(6), d_stress(6), values(3), axes(3, 3), x(6), weight, by_stress(6, 6), by_e(6), u(3), kind(3)
+    real(wp) :: variation(6), forth(6), back(6), h
+    integer :: i, status
+
+    m = material_from_props(real(sands(sand)%props, wp), regularised=.true.)
+    call random_tensor(stress)
+    call diagonalise(stress, values, axes)
+    call random_number(u)
+    call random_number(kind)
+    ! Principal stresses of the size of the confinement, tensile or not, of the soft pressure, and ordinary ones.
+    values = merge(m%confinement * (4.0_wp * u - 2.5_wp), merge(m%soft_pressure * (u - 0.7_wp), -100.0_wp * u, kind < 0.8_wp), &
+                   kind < 0.6_wp)
+    stress = rotate([values(1), values(2), values(3), 0.0_wp, 0.0_wp, 0.0_wp], axes)
+    call random_tensor(delta)
+    call random_tensor(d)
+    if ((ddot(delta, d) > 0.0_wp) .neqv. branch == branch_loading) delta = -delta
+    delta = 0.6_wp * m%R * delta / norm(delta)
+    call hypoplastic_tensors(m, stress, m%e_c0, tensors, status)
+    if (status /= status_ok) error stop 'a state at the border has no answer'
+    call operands(m, intergranular_direction(m, delta), d, branch, x, weight)
+    call linearise(m, tensors, sensitivities(m, m%e_c0, tensors), x, weight, by_stress, by_e)
+    h = 1.0e-7_wp
+    error = 0.0_wp
+    do i = 1, 6
+      call random_tensor(d_stress)
+      d_stress = m%confinement * d_stress
+      variation = matmul(by_stress, d_stress)
+      forth = rate_at(m, branch, stress + h * d_stress, m%e_c0, delta, d)
+      back = rate_at(m, branch, stress - h * d_stress, m%e_c0, delta, d)
+     error = max(error, norm((forth - back) / (2.0_wp * h) - variation) / max(norm(variation), 1.0e-6_wp * norm(forth)))
+    end do
+  end function error_at_border
+
   !> Derivative of the stress rate in the direction of one eta and the change of stress that goes with it, put together from
   !> its factors.
 function variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_volume, eta, d_stress) result(variation)
@@ -128,7 +176,7 @@ function variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_
                 dot_product(linear%on(:, 3), d_stress) * unit_tensor
   end function variation_at
 
-  !> The stress rate of a state inside the domain.
+  !> The stress rate of a state.
   function rate_at(m, branch, stress, void_ratio, delta, d) result(rate)
     type(material_type), intent(in) :: m
     integer, intent(in) :: branch
