@@ -102,6 +102,15 @@ def test_stress_probes_at_failure(yade: Yade, sphere_sample: Path, folder: Path)
     assert list(rows["number"]) == [0, 1, 2, 3, -1]
     size = np.sqrt(rows["dsig_x"] ** 2 + rows["dsig_y"] ** 2 + rows["dsig_z"] ** 2)
     assert size[:4] == pytest.approx(0.1, rel=1e-4)
+    options = ["--sample", sphere_sample, "--directions", 1, "--duration", 60, "--quiet", 1e-4]
+    yade("probe_stress.py", "--out", folder / "tangent", *options, "--tangent", 2)
+    notes = read_dem(folder / "tangent").results["notes"]
+    before, after = (np.array(notes[f"stress {name} [kPa]"]) for name in ("before the tangent", "of the probes"))
+    # To larger Lode angles: x, which becomes the smallest compression, is relieved and z compressed. Where the sample
+    # flows it takes back some of its deviator.
+    assert (after - before)[[0, 2]] == pytest.approx([np.sqrt(2), -np.sqrt(2)], abs=0.5)
+    both = [*options, "--tangent", 2, "--tangent-to", out]
+    assert "not allowed with" in yade("probe_stress.py", "--out", folder / "both", *both, code=2).stderr
 
 
 def test_strain_probes_are_what_was_asked_for(yade: Yade, disc_sample: Path, folder: Path) -> None:

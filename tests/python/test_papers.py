@@ -7,7 +7,8 @@ import pytest
 
 from hypofab import papers
 from hypofab.papers import paper_001, paper_003, paper_004
-from hypofab.papers.element import SMALL, Loading, element_tests, secants
+from hypofab.papers.element import SMALL, Loading, element_tests, fabric_in_space, secants
+from hypofab.papers.flow import flow_of, octahedral_unit
 from hypofab.papers.runs import read_curve, read_dem
 from hypofab.results import ResultError
 
@@ -49,15 +50,50 @@ def test_plastic_flow_at_failure_has_one_direction() -> None:
     for lode in (20, 40, 60):
         state = paper_004.read_failure(RESULTS / "004" / f"lode{lode}")
         flow = state.flow
-        assert flow.share > 0.99
+        assert flow.share > 0.9
         assert np.argmax(flow.direction) == 0  # extension along x, the direction of the smallest compression
         assert np.argmin(-state.stress) == np.argmin(state.fabric()) == 0
 
 
-@pytest.mark.parametrize("paper", ["002", "003", "004"])
+def test_a_tangent_path_turns_the_flow_and_leaves_the_fabric() -> None:
+    states = {name: paper_004.read_failure(RESULTS / "004" / name) for name in ("A_minus", "lode0", "A_plus")}
+    minus, radial, plus = states.values()
+    assert minus.flow.angle + 3 < radial.flow.angle < plus.flow.angle - 3
+    assert minus.fabric() == pytest.approx(radial.fabric(), abs=0.004)
+    assert plus.fabric() == pytest.approx(radial.fabric(), abs=0.004)
+    # Sliding contacts: more of them in the direction to which the flow has turned.
+    assert plus.fabric(sliding=True)[0] > radial.fabric(sliding=True)[0] > minus.fabric(sliding=True)[0]
+    element = paper_004.element_probes(states)
+    assert element["A_minus"].flow.angle + 2 < element["lode0"].flow.angle < element["A_plus"].flow.angle - 2
+
+
+def test_flow_has_the_lode_angle_of_its_stress_where_both_are_aligned() -> None:
+    for angle in (0, 20, 50):
+        unit = octahedral_unit(angle)
+        flow = flow_of(np.outer([1.0, 2.0, 0.5], unit), unit - 1)
+        assert flow.angle == pytest.approx(angle)
+        assert flow.share == pytest.approx(1)
+        assert flow.direction == pytest.approx(unit)
+
+
+def test_a_planar_isotropic_fabric_is_isotropic_in_space() -> None:
+    assert fabric_in_space(0.5, 0.5, 0.0) == pytest.approx([1 / 3, 1 / 3, 1 / 3, 0, 0, 0])
+    assert sum(fabric_in_space(0.6, 0.4, 0.1)[:3]) == pytest.approx(1)
+
+
+def test_biaxial_tests_end_on_one_line_whatever_the_preparation() -> None:
+    tests = [paper_003.read_test(RESULTS / "003", name) for name in ("D02", "I12", "M07")]  # 200 kPa
+    start = [test.curve.void_ratio[0] for test in tests]
+    end = [test.late(test.curve.void_ratio) for test in tests]
+    assert np.ptp(start) > 0.09
+    assert np.ptp(end) < 0.015
+    assert np.ptp([test.critical for test in tests]) < 0.1
+
+
+@pytest.mark.parametrize("paper", ["002", "003", "004", "convergence"])
 def test_every_paper_has_a_table_and_figures(paper: str, tmp_path: Path) -> None:
     assert papers.compare(paper, RESULTS / paper, tmp_path).count("|") > 50
-    assert list(tmp_path.glob(f"{paper}_*.png"))
+    assert list(tmp_path.glob(f"{paper}*.png"))
 
 
 def test_missing_runs_are_named(tmp_path: Path) -> None:

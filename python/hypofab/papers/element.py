@@ -27,10 +27,17 @@ class Loading:
     axis: str
 
 
-def deck(loadings: list[Loading], c: float, strain: float | None) -> dict:
+def delta_of(sample: DemRun, c: float, corrected: bool) -> dict:
+    """Delta of a state from the contacts of a sample; corrected: without the noise of their finite number."""
+    if not corrected:
+        return {"contacts": str(sample.contacts.resolve()), "c": c}
+    return {"components": run_json("delta", sample.contacts, f"--c={c:.9g}", "--corrected")["delta"]}
+
+
+def deck(loadings: list[Loading], c: float, strain: float | None, *, corrected: bool = False) -> dict:
     """The deck of these tests: material of paper 000, void ratio and contacts of the samples.
 
-    strain: axial compression at the end; None: stop at eps_q = 0.1 %.
+    strain: axial compression at the end; None: stop at eps_q = 0.1 %. corrected: as in delta_of.
     """
     samples = {loading.sample.name: loading.sample for loading in loadings}
     states = [
@@ -39,7 +46,7 @@ def deck(loadings: list[Loading], c: float, strain: float | None) -> dict:
             "material": "sand",
             "p": 100,
             "void_ratio": sample.results["void_ratio"],
-            "delta": {"contacts": str(sample.contacts.resolve()), "c": c},
+            "delta": delta_of(sample, c, corrected),
         }
         for name, sample in samples.items()
     ]
@@ -99,9 +106,11 @@ def fabric_in_space(xx: float, yy: float, xy: float) -> list[float]:
     return [2 / 3 * xx, 2 / 3 * yy, 1 / 3, 2 / 3 * xy, 0, 0]
 
 
-def element_tests(loadings: list[Loading], c: float, strain: float | None = None) -> dict[str, TestResult]:
+def element_tests(
+    loadings: list[Loading], c: float, strain: float | None = None, *, corrected: bool = False
+) -> dict[str, TestResult]:
     """Run the directional tests."""
-    return run_deck(deck(loadings, c, strain))
+    return run_deck(deck(loadings, c, strain, corrected=corrected))
 
 
 def secants(tests: Mapping[str, TestResult]) -> dict[str, float]:
@@ -121,9 +130,10 @@ class Fit:
     """Root-mean-square error of the logarithms of the ratios."""
 
 
-def fit_c(loadings: list[Loading], measured: Mapping[str, float]) -> Fit:
+def fit_c(loadings: list[Loading], measured: Mapping[str, float], *, corrected: bool = False) -> Fit:
     """The c that fits the ratios of the measured stiffnesses [kPa] best."""
     with deck_file(deck(loadings, 0.05, None)) as file:
         targets = ",".join(f"{name}={value:.9g}" for name, value in measured.items())
-        result = run_json("fit-c", file, "--target", targets)
+        options = ["--corrected"] if corrected else []
+        result = run_json("fit-c", file, "--target", targets, *options)
     return Fit(result["c"], result["lower"], result["upper"], result["misfit"])

@@ -36,7 +36,8 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
             stiffness = fan.run.results["material"]["stiffness"] / 1e3
             matrix, _ = fan.linear
             label = f"Z = {fan.coordination:.2f}"
-            stress_panel(stress, index, fan.strain, fan.stress / stiffness, matrix / stiffness, label)
+            scale = 1e4 / stiffness
+            stress_panel(stress, index, fan.strain, scale * fan.stress, scale * matrix, label)
             change = np.array([snapshot["change"][:2] for snapshot in fan.changes["snapshots"]])
             closed = [*range(len(change)), 0]
             fabric.plot(*change[closed].T, marker="o", markersize=3, **line_style(index))
@@ -45,7 +46,9 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
             matrix, error = probes.linear
             label = f"{probes.title}: {100 * error:.1f} %"
             stress_panel(sand, index, np.full(1, element[0].size), scale * probes.stress, matrix, label)
-        stress.set(xlabel=r"$\Delta\sigma_{xx}/k_n$", ylabel=r"$\Delta\sigma_{yy}/k_n$", title="DEM, stress")
+        stress.set(
+            xlabel=r"$10^4\,\Delta\sigma_{xx}/k_n$", ylabel=r"$10^4\,\Delta\sigma_{yy}/k_n$", title="DEM, stress"
+        )
         sand.set(
             xlabel=r"$\Delta\sigma_{xx}$ [kPa]", ylabel=r"$\Delta\sigma_{yy}$ [kPa]", title="element tests, stress"
         )
@@ -53,7 +56,8 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
         for axes in (stress, sand, fabric):
             axes.set_aspect("equal", adjustable="datalim")
         stress.legend(fontsize=7)
-        sand.legend(fontsize=7, title="off the ellipse", title_fontsize=7)
+        sand.legend(fontsize=6, title="off the ellipse", title_fontsize=6, loc="lower right")
+        sand.margins(0.25)
 
 
 def rates(fans: list[Fan], path: Path) -> None:

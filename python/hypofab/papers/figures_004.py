@@ -67,13 +67,13 @@ def envelopes(states: dict[str, Failure], element: dict[str, ElementProbes], pat
             color = line_style(index)["color"]
             probes = element[name]
             pairs = (states[name].amount, amount_of(probes.increments, probes.plastic, probes.flow))
-            for axes, pair in zip((dem_amount, sand_amount), pairs, strict=True):
-                axes.plot(*pair, "os^D"[index % 4], markersize=3, color=color, fillstyle="none")
+            for axes, (cosine, amount) in zip((dem_amount, sand_amount), pairs, strict=True):
+                axes.plot(cosine, amount / amount.max(), "os^D"[index % 4], markersize=3, color=color, fillstyle="none")
         for axes, title in ((dem_amount, "DEM"), (sand_amount, "element tests")):
             axes.set(
                 title=title,
                 xlabel="cosine of increment and flow direction",
-                ylabel="plastic strain along it [1e-6/kPa]",
+                ylabel="plastic strain along it, over the largest",
             )
 
 
@@ -104,7 +104,8 @@ def principal(states: dict[str, Failure], element: dict[str, ElementProbes], pat
                 )
             axes.axhline(0, color="black", linewidth=0.8)
             axes.set(xticks=range(3), xticklabels=["x (least)", "y (most)", "z"], ylim=(-1, 1.4))
-            axes.set_title(rf"$\theta$ = {state.lode:.0f}$^\circ$, compression positive")
+            axes.set_title(rf"$\theta$ = {state.lode:.0f}$^\circ$")
+        panels[0].set_ylabel("compression positive")
         panels[0].legend(fontsize=7, loc="upper left", ncols=2, columnspacing=0.8)
 
 
@@ -139,20 +140,22 @@ def tangents(states: dict[str, Failure], element: dict[str, ElementProbes], path
     """Figure 4: response envelopes at A-, A, A+ (top), sliding contacts in the deviatoric plane (bottom)."""
     names = {"A_minus": "A-", "lode0": "A", "A_plus": "A+"}
     if "tangent20" in states:
-        names |= {"lode20": r"radial, $\theta$ = 20$^\circ$", "tangent20": "the same stress, tangent path"}
+        names |= {"lode20": r"$\theta$ = 20$^\circ$, radial", "tangent20": r"$\theta$ = 20$^\circ$, tangent"}
     turn = np.linspace(0, 2 * np.pi, 73)
     with draw.panels(path, len(names), rows=2, size=(62, 62)) as panels:
         for column, (name, title) in enumerate(names.items()):
             above, below = panels[column], panels[len(names) + column]
             _lines(above, element[name].plastic, "#D55E00", 1.6, "element test")
             _lines(above, states[name].plastic, "#000000", 0.7, "DEM")
-            above.set(title=f"{title}: plastic strain", xlim=(-1.1, 1.1), ylim=(-1.1, 1.1))
+            above.set(title=title, xlim=(-0.7, 0.9), ylim=(-0.4, 1.2), yticks=(0, 0.5, 1))
             for sliding, style in ((False, {"color": "0.6"}), (True, {"color": "#00508C", "linestyle": "--"})):
                 radius = cross_section(states[name].fabric(sliding))
                 label = "sliding contacts" if sliding else "all contacts"
                 below.plot(radius * np.sin(turn), radius * np.cos(turn), label=label, **style)
-            below.set(title="density of contacts", xlim=(-2, 2), ylim=(-2, 2))
+            below.set(xlim=(-2, 2), ylim=(-2, 2))
             for axes in (above, below):
                 axes.set_aspect("equal")
+        panels[0].set_ylabel("plastic strain")
+        panels[len(names)].set_ylabel("density of contacts")
         panels[0].legend(fontsize=7, loc="lower left")
         panels[len(names)].legend(fontsize=7, loc="lower left")

@@ -40,10 +40,17 @@ def flow_of(plastic: Array, stress: Array) -> Flow:
     return Flow(axes[0] * np.sign(axes[0] @ (stress - stress.mean())), float(values[0] ** 2 / np.sum(values**2)))
 
 
+def range_of(plastic: Array) -> tuple[float, float]:
+    """Smallest and largest Lode angle [deg] of those plastic strains that are at least a third of the largest."""
+    size = np.linalg.norm(plastic, axis=1)
+    angles = np.degrees(np.arctan2(*octahedral(-plastic[size > size.max() / 3])))
+    return float(angles.min()), float(angles.max())
+
+
 def amount_of(increments: Array, plastic: Array, flow: Flow) -> tuple[Array, Array]:
-    """Cosine of each increment with the flow direction, and the plastic strain along it per kPa [1e-6]."""
+    """Cosine of each increment with the flow direction, and the plastic strain along it per stress."""
     size = np.linalg.norm(increments, axis=1)
-    return increments @ flow.direction / size, 1e6 * (plastic @ flow.direction) / size
+    return increments @ flow.direction / size, (plastic @ flow.direction) / size
 
 
 def cross_section(fabric: Array) -> Array:

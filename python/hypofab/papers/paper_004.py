@@ -11,7 +11,7 @@ import numpy as np
 
 from hypofab.papers import draw, figures_004
 from hypofab.papers.element import run_deck, run_envelopes
-from hypofab.papers.flow import Flow, amount_of, flow_of, octahedral, octahedral_unit
+from hypofab.papers.flow import Flow, amount_of, flow_of, octahedral, octahedral_unit, range_of
 from hypofab.papers.program import run_json
 from hypofab.papers.runs import DemRun, read_dem, read_table
 from hypofab.results import Array, ResultError
@@ -63,7 +63,7 @@ class Failure:
 
     @property
     def amount(self) -> tuple[Array, Array]:
-        """Cosine of each increment with the flow direction, and the plastic strain along it per kPa [1e-6]."""
+        """Cosine of each increment with the flow direction, and the plastic strain along it per stress."""
         return amount_of(self.increments, self.plastic, self.flow)
 
     def fabric(self, sliding: bool = False) -> Array:
@@ -180,6 +180,7 @@ def table(states: dict[str, Failure], element: dict[str, ElementProbes]) -> str:
         rows.append(
             [
                 name,
+                f"{state.run.results['particles']}, {np.linalg.norm(state.increments[0]):.1f}",
                 f"{q / -stress.mean():.2f}",
                 numbers(-state.stress, 1),
                 numbers(state.fabric(), 3),
@@ -187,16 +188,31 @@ def table(states: dict[str, Failure], element: dict[str, ElementProbes]) -> str:
                 numbers(flow.direction),
                 f"{100 * flow.share:.1f}",
                 f"{np.degrees(np.arctan2(*octahedral(-state.stress))):.0f}",
-                f"{flow.angle:.0f}",
+                "{:.0f} ({:.0f} to {:.0f})".format(flow.angle, *range_of(state.plastic)),
                 f"{ratio:.2f}",
                 numbers(element[name].flow.direction),
                 f"{100 * element[name].flow.share:.1f}",
-                f"{element[name].flow.angle:.0f}",
+                "{:.0f} ({:.0f} to {:.0f})".format(element[name].flow.angle, *range_of(element[name].plastic)),
             ]
         )
-    head = ["state", "q/p at failure", "stress of the probes x y z [kPa]", "N xx yy zz", "N of sliding contacts"]
-    head += ["flow x y z", "its share [%]", "Lode angle of stress", "of flow", "plastic over total, largest"]
-    return draw.table([*head, "flow x y z, element", "its share [%]", "Lode angle of flow, element"], rows)
+    head = [
+        "state",
+        "spheres, increment [kPa]",
+        "q/p at failure",
+        "stress of the probes x y z [kPa]",
+        "N xx yy zz",
+        "N of sliding contacts",
+    ]
+    head += [
+        "flow x y z",
+        "its share [%]",
+        "Lode angle of stress",
+        "of flow (over increments)",
+        "plastic over total, largest",
+    ]
+    return draw.table(
+        [*head, "flow x y z, element", "its share [%]", "Lode angle of flow, element (over increments)"], rows
+    )
 
 
 def read_states(runs: Path) -> dict[str, Failure]:
