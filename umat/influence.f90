@@ -28,7 +28,7 @@ module umat_influence
   end type influence_type
 
   !> dJ/dc at the nodes of a step, c running from 0 to 1 through it: with y the influence at the node,
-  !>   diagonal y + factor (identity) + dyads of directions d, its normal, That and 1 with part(:, p).
+  !>   diagonal y + factor (identity) + dyads of directions d, its normal, 1 and That with part(:, p).
   type :: rates_type
     real(wp) :: diagonal(0:most_nodes), factor(0:most_nodes), part(6, 4, 0:most_nodes)
     real(wp) :: x(2, 0:most_nodes) !< X, with the length of strain, along d and its normal
@@ -38,7 +38,7 @@ module umat_influence
   end type rates_type
 
   !> Most unknown vectors of a step: what That, X and 1 are multiplied with, at each node.
-  integer, parameter :: most_rows = 3 * most_nodes, half_rows = most_rows / 2, most_columns = most_rows + 6
+  integer, parameter :: most_rows = 3 * most_nodes, most_columns = most_rows + 6
   !> A pivot of the nodes' system is near 1; below this the step is too long.
   real(wp), parameter :: least_pivot = 0.1_wp
   !> Part of the tolerance for what the nodes leave out.
@@ -75,6 +75,7 @@ contains
     end do
     rates%frame(:, 1) = leg%path%along
     rates%frame(:, 2) = leg%path%normal
+    rates%diagonal = 0.0_wp
     do k = 0, n
       rates%that(:, k) = tensors(k)%that
       integral = influence%integral
@@ -196,21 +197,21 @@ contains
     real(wp), intent(in) :: diagonal(0:most_nodes)
     real(wp), intent(out) :: weight(0:most_nodes, most_nodes)
     real(wp) :: matrix(most_nodes, most_nodes), factor
-    integer :: j, k, n
-    n = rule%n
-    weight(:, :n) = rule%a(:, :n)
-    do j = 1, n
-      matrix(:n, j) = -rule%a(1:n, j) * diagonal(1:n)
+    integer :: j, k
+    ! With as many unknowns as there may be: weights of nodes that a rule has not are zero.
+    weight = rule%a
+    do j = 1, most_nodes
+      matrix(:, j) = -rule%a(1:, j) * diagonal(1:)
       matrix(j, j) = matrix(j, j) + 1.0_wp
     end do
-    do k = 1, n
+    do k = 1, rule%n
       factor = 1.0_wp / matrix(k, k)
-      matrix(:n, k) = factor * matrix(:n, k)
+      matrix(:, k) = factor * matrix(:, k)
       weight(:, k) = factor * weight(:, k)
-      do j = 1, n
+      do j = 1, rule%n
         if (j == k) cycle
         factor = matrix(k, j)
-        matrix(:n, j) = matrix(:n, j) - factor * matrix(:n, k)
+        matrix(:, j) = matrix(:, j) - factor * matrix(:, k)
         weight(:, j) = weight(:, j) - factor * weight(:, k)
       end do
     end do
@@ -227,11 +228,13 @@ contains
     real(wp), intent(in) :: weight(0:most_nodes, most_nodes), start(6, 6)
     type(rates_type), intent(inout) :: rates
     logical, intent(out) :: solved
-    real(wp) :: system(most_columns, most_rows), right(6), part(6, 4), carried, factor
+    real(wp) :: system(most_columns, most_rows), right(6), part(6, 3), carried, factor
     real(wp) :: directions(8, 6), dots(8) ! That at the nodes, d, its normal and 1
     integer :: i, j, k, row
+    logical :: started
 
-    do i = 1, kinds ! the start's own
+    started = any(abs(start) > 0.0_wp)
+    do i = 1, merge(kinds, 0, started) ! the start's own
       call add(i, 0, contracted(start, rates%linear(0)%on(:, i)), rates)
     end do
     directions = 0.0_wp
@@ -244,7 +247,7 @@ contains
       carried = 1.0_wp
       factor = 0.0_wp
       do k = 0, n
-        part = part + weight(k, j) * rates%part(:, :, k)
+        part = part + weight(k, j) * rates%part(:, :3, k)
         carried = carried + weight(k, j) * rates%diagonal(k)
         factor = factor + weight(k, j) * rates%factor(k)
       end do
@@ -256,7 +259,7 @@ contains
             dots = dots + on(k) * directions(:, k)
           end do
          right = factor * on + dots(6) * part(:, part_d) + dots(7) * part(:, part_normal) + dots(8) * part(:, part_unit)
-          right = right + carried * contracted(start, on)
+          if (started) right = right + carried * contracted(start, on)
           do k = 0, n
             right = right + weight(k, j) * dots(k + 1) * rates%part(:, part_that, k)
           end do
@@ -341,42 +344,48 @@ contains
   end function rate_at
 
   !> Solve a system that is near the identity, for six right sides, by Gauss's elimination without a search for pivots.
+  !>
+  !> In blocks of six columns, whose loops the compiler unrolls: what they do beyond need costs less than loops of any length.
   !> @param n      unknowns
-  !> @param system (column, row), right sides before the matrix; they become the solution
+  !> @param system (column, block, row): the right sides, the first six unknowns, the others; the right sides become the solution
   !> @param solved false when a pivot is small
   pure subroutine eliminate(n, system, solved)
     integer, intent(in) :: n
-    real(wp), intent(inout) :: system(most_columns, most_rows)
+    real(wp), intent(inout) :: system(6, 3, most_rows)
     logical, intent(out) :: solved
     real(wp) :: factor
-    integer :: i, k
+    integer :: i, k, column, block
     solved = .false.
-    ! From the last unknown to the first: what is left is then at the beginning of the columns, and loops of fixed length, though
-    ! some run too far, take a third of the time of those that fit.
+    ! From the last unknown to the first, so that whole blocks are done with at the end.
     do k = n, 1, -1
-      if (.not. system(6 + k, k) > least_pivot) return
-      factor = 1.0_wp / system(6 + k, k)
-      if (k > half_rows) then
-        system(:, k) = factor * system(:, k)
-        do i = 1, k - 1
-          factor = system(6 + k, i)
-          system(:, i) = system(:, i) - factor * system(:, k)
-        end do
-      else
-        system(:6 + half_rows, k) = factor * system(:6 + half_rows, k)
-        do i = 1, k - 1
-          factor = system(6 + k, i)
-          system(:6 + half_rows, i) = system(:6 + half_rows, i) - factor * system(:6 + half_rows, k)
-        end do
-      end if
+      block = 2 + (k - 1) / 6
+      column = k - 6 * (block - 2)
+      if (.not. system(column, block, k) > least_pivot) return
+      factor = 1.0_wp / system(column, block, k)
+      system(:, :block, k) = factor * system(:, :block, k)
+      do i = 1, k - 1
+        call subtract(system(column, block, i), system(:, 1, k), system(:, 1, i))
+        call subtract(system(column, block, i), system(:, 2, k), system(:, 2, i))
+        if (block == 3) call subtract(system(column, block, i), system(:, 3, k), system(:, 3, i))
+      end do
     end do
     do k = 1, n - 1
+      block = 2 + (k - 1) / 6
+      column = k - 6 * (block - 2)
       do i = k + 1, n
-        system(:6, i) = system(:6, i) - system(6 + k, i) * system(:6, k)
+        call subtract(system(column, block, i), system(:, 1, k), system(:, 1, i))
       end do
     end do
     solved = .true.
   end subroutine eliminate
+
+  !> Subtract a multiple of six numbers.
+  pure subroutine subtract(factor, what, from)
+    real(wp), value :: factor
+    real(wp), intent(in) :: what(6)
+    real(wp), intent(inout) :: from(6)
+    from = from - factor * what
+  end subroutine subtract
 
   !> Contraction with the stress side of an influence.
   pure function contracted(influence, on) result(on_eta)

@@ -40,7 +40,7 @@ module umat_integration
   !> prediction shortens it.
   real(wp), parameter :: step_of_R = 0.6_wp, step_with_tangent = 0.5_wp
   !> With the tangent, the rule of three nodes is tried first up to this part of R, or this strain of the plain model.
-  real(wp), parameter :: few_nodes_of_R = 0.015_wp, few_nodes_plain = 1.0e-6_wp
+  real(wp), parameter :: few_nodes_of_R = 0.05_wp, few_nodes_plain = 1.0e-6_wp
 
   !> A step that is meant to cover this part of what is left covers it all; above the most that is left after a rejection (step.f90).
   real(wp), parameter :: nearly = 0.95_wp

@@ -32,8 +32,8 @@ module umat_variation
     real(wp) :: factor, plane(2, 2), weight(2)
   end type operand_influence_type
 
-  !> Where the parts of a derivative of the rate point: d, the direction normal to it, That and 1.
-  integer, parameter, public :: part_d = 1, part_normal = 2, part_that = 3, part_unit = 4
+  !> Where the parts of a derivative of the rate point: d, the direction normal to it, 1 and That.
+  integer, parameter, public :: part_d = 1, part_normal = 2, part_unit = 3, part_that = 4
 
 contains
 
@@ -153,7 +153,7 @@ contains
   end function operand_influence
 
   !> Derivative of the rate with respect to eta at fixed stress, through X, weight and void ratio:
-  !>   d rate = factor eta + sum of direction_p (part(:, p):eta) over d, its normal, That and 1.
+  !>   d rate = factor eta + sum of direction_p (part(:, p):eta) over d, its normal, 1 and That.
   !> @param h         L and N
   !> @param linear    derivative of the rate with respect to void ratio
   !> @param frame     d and the direction normal to it
