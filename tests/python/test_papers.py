@@ -1,5 +1,6 @@
 """The comparisons with the papers, on the DEM runs that the documentation shows."""
 
+import runpy
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from hypofab import papers
 from hypofab.papers import paper_001, paper_003, paper_004
 from hypofab.papers.element import SMALL, Loading, element_tests, fabric_in_space, secants
 from hypofab.papers.flow import flow_of, octahedral_unit
+from hypofab.papers.program import run_json
 from hypofab.papers.runs import read_curve, read_dem
 from hypofab.results import ResultError
 
@@ -94,6 +96,22 @@ def test_biaxial_tests_end_on_one_line_whatever_the_preparation() -> None:
 def test_every_paper_has_a_table_and_figures(paper: str, tmp_path: Path) -> None:
     assert papers.compare(paper, RESULTS / paper, tmp_path).count("|") > 50
     assert list(tmp_path.glob(f"{paper}*.png"))
+
+
+def test_kept_contact_lists_say_what_the_whole_ones_say(tmp_path: Path) -> None:
+    keep = runpy.run_path(str(RESULTS.parent / "keep"))
+    rows = ["9 8 0 0 1 0.6000004 0.7999997 1e-12 1.23456e-3 2e-3 1e-20 30.000001 40.000002 1e-9 4 -3 0 1e-6 0 0 0"]
+    rows.append("2 3 0 0 0 1 0 0 1e-3 0 0 5 0 0 0 1 0 1e-6 0 0 0")
+    names = "id1 id2 cellDist_x cellDist_y cellDist_z nx ny nz bx by bz Fnx Fny Fnz Fsx Fsy Fsz penetration cpx cpy cpz"
+    whole, short = tmp_path / "whole.txt", tmp_path / "short.txt"
+    whole.write_text("\n".join(["# title", f"# {names}", *rows]) + "\n")
+    short.write_text(keep["contacts"]("003", whole.read_text()))
+    assert "penetration" not in short.read_text()
+    assert short.read_text().splitlines()[2].startswith("2 3 ")
+    before, after = (run_json("describe", file, "--plane", "--friction-angle", "26.565") for file in (whole, short))
+    for key in ("contacts", "particles", "anisotropy", "mean_normal_force", "mean_shear_force", "mean_branch_length"):
+        assert after[key] == pytest.approx(before[key], rel=1e-3)
+    assert before["contacts"] == 2
 
 
 def test_missing_runs_are_named(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from hypofab.figures import INCH, STYLE, line_style
 from hypofab.papers import draw
@@ -86,28 +87,40 @@ def rates(fans: list[Fan], path: Path) -> None:
         axes[0].legend()
 
 
-def roses(fan: Fan, path: Path) -> None:
+def pooled_rose(fans: list[Fan], angle: float, mechanism: str) -> tuple[Array, complex]:
+    """Counts per bin of all samples together for one direction of the probe, and a exp(2 i direction) of their law."""
+    roses = [fan.changes["snapshots"][int(np.argmin(np.abs(fan.alpha - angle)))][mechanism]["rose"] for fan in fans]
+    count = np.sum([rose["count"] for rose in roses], axis=0).astype(float)
+    total = sum(rose["contacts"] for rose in roses)
+    turned = [
+        rose["contacts"] * rose["anisotropy"] * np.exp(2j * math.radians(rose["direction"]))
+        for rose in roses
+        if rose["contacts"] > 0
+    ]
+    return count, complex(sum(turned) / total) if total else 0j
+
+
+def roses(fans: list[Fan], path: Path) -> None:
     """Figure 4: orientations of lost and gained contacts for five directions, with second-order harmonics (Eq. 5)."""
     shown = [45, 90, 135, 180, 225]
     with rc_context(STYLE):
         figure = Figure(figsize=(55 * len(shown) / INCH, 110 / INCH), layout="constrained")
         for column, angle in enumerate(shown):
-            snapshot = fan.changes["snapshots"][int(np.argmin(np.abs(fan.alpha - angle)))]
             for row, mechanism in enumerate(("loss", "gain")):
                 axes = figure.add_subplot(2, len(shown), row * len(shown) + column + 1, projection="polar")
-                rose = snapshot[mechanism]["rose"]
-                count = np.array(rose["count"], dtype=float)
-                pairs = count.reshape(-1, 4).sum(axis=1)  # bins of 30 degrees: contacts are few
-                width = math.pi / len(pairs)
-                middle = (np.arange(len(pairs)) + 0.5) * width
+                count, harmonic = pooled_rose(fans, angle, mechanism)
+                bins = count.reshape(-1, 2).sum(axis=1)  # of 15 degrees: contacts are few
+                width = math.pi / len(bins)
+                middle = (np.arange(len(bins)) + 0.5) * width
                 for turn in (0.0, math.pi):
-                    axes.bar(middle + turn, pairs, width=width, color="#7FBFE8", edgecolor="#00508C", linewidth=0.4)
+                    axes.bar(middle + turn, bins, width=width, color="#7FBFE8", edgecolor="#00508C", linewidth=0.4)
                 theta = np.linspace(0, 2 * np.pi, 181)
-                if rose["contacts"] > 0:
-                    law = 1 + rose["anisotropy"] * np.cos(2 * (theta - math.radians(rose["direction"])))
-                    axes.plot(theta, np.maximum(0, pairs.mean() * law), color="#D55E00", linewidth=1.2)
-                axes.set_title(rf"{mechanism}, $\alpha$ = {angle}$^\circ$: {rose['contacts']}", fontsize=8)
-                axes.set_xticklabels([])
+                if count.sum() > 0:
+                    law = 1 + np.real(harmonic * np.exp(-2j * theta))
+                    axes.plot(theta, np.maximum(0, bins.mean() * law), color="#D55E00", linewidth=1.2)
+                axes.set_title(rf"{mechanism}, $\alpha$ = {angle}$^\circ$: {count.sum():.0f}", fontsize=8)
+                axes.set(xticklabels=[], ylim=(0, max(1.0, 1.1 * bins.max())))
+                axes.yaxis.set_major_locator(MaxNLocator(3, integer=True))
                 axes.tick_params(labelsize=6)
         figure.savefig(path, dpi=110)
 

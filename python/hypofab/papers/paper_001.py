@@ -220,7 +220,7 @@ def compare(runs: Path, out: Path) -> str:
     fans = sorted((read_fan(folder) for folder in folders), key=lambda fan: -fan.coordination)
     element = element_fans(fans[0])
     figures_001.responses(fans, element, out / "001_responses.png")
-    figures_001.roses(fans[0], out / "001_roses.png")
+    figures_001.roses(fans, out / "001_roses.png")
     figures_001.rates(fans, out / "001_rates.png")
     figures_001.trends(fans, out / "001_trends.png")
     return summary(fans) + "\n\n" + element_table(fans, element)
