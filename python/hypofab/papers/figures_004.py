@@ -6,11 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from hypofab.figures import INCH, STYLE, line_style
+from hypofab.figures import line_style
 from hypofab.papers import draw
 from hypofab.papers.flow import amount_of, cross_section, octahedral
 from hypofab.results import Array
@@ -110,22 +108,12 @@ def principal(states: dict[str, Failure], element: dict[str, ElementProbes], pat
 
 
 def ellipsoids(states: dict[str, Failure], path: Path) -> None:
-    """Figure 3: the fabric of all contacts as a surface 1 + F:nn."""
-    radial = _radial(states)
-    u, v = np.meshgrid(np.linspace(0, np.pi, 31), np.linspace(0, 2 * np.pi, 61))
-    n = np.stack([np.sin(u) * np.cos(v), np.cos(u), np.sin(u) * np.sin(v)])
-    with rc_context(STYLE):
-        drawing = Figure(figsize=(70 * len(radial) / INCH, 75 / INCH), layout="constrained")
-        for index, state in enumerate(radial.values()):
-            deviator = 7.5 * (state.fabric() - 1 / 3)
-            x, y, z = n * (1 + np.einsum("i...,i,i...->...", n, deviator, n))
-            axes = drawing.add_subplot(1, len(radial), index + 1, projection="3d")
-            axes.plot_surface(x, z, y, color="#7FBFE8", edgecolor="#00508C", linewidth=0.2)
-            axes.set(xlim=(-1.6, 1.6), ylim=(-1.6, 1.6), zlim=(-1.6, 1.6), xlabel="x", ylabel="z", zlabel="y")
-            axes.set_title(rf"$\theta$ = {state.lode:.0f}$^\circ$")
-            axes.set_box_aspect((1, 1, 1))
-            axes.tick_params(labelsize=6)
-        drawing.savefig(path, dpi=110)
+    """Figure 3: the fabric of all contacts."""
+    tensors = {
+        rf"$\theta$ = {state.lode:.0f}$^\circ$": 7.5 * np.diag(state.fabric() - 1 / 3)
+        for state in _radial(states).values()
+    }
+    draw.fabric_surfaces(path, tensors, size=70, limit=1.6)
 
 
 def _lines(axes: Axes, plastic: Array, color: str, width: float, label: str) -> None:

@@ -54,27 +54,13 @@ def stiffness_table(columns: dict[str, dict[str, float]]) -> str:
 
 
 def surface(path: Path, samples: dict[str, DemRun]) -> None:
-    """Figure 4: the density of contact normals, 1 + F:nn, as a surface."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    from hypofab.figures import INCH, STYLE
-
-    u, v = np.meshgrid(np.linspace(0, np.pi, 31), np.linspace(0, 2 * np.pi, 61))
-    n = np.stack([np.sin(u) * np.cos(v), np.cos(u), np.sin(u) * np.sin(v)])
-    with rc_context(STYLE):
-        figure = Figure(figsize=(95 * len(samples) / INCH, 90 / INCH), layout="constrained")
-        for index, (name, sample) in enumerate(samples.items()):
-            fabric = run_json("fabric", sample.contacts)
-            xx, yy, zz, xy, xz, yz = fabric["deviatoric_fabric"]
-            tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            x, y, z = n * (1 + np.einsum("i...,ij,j...->...", n, tensor, n))
-            axes = figure.add_subplot(1, len(samples), index + 1, projection="3d")
-            axes.plot_surface(x, z, y, color="#7FBFE8", edgecolor="#00508C", linewidth=0.2, alpha=1.0)
-            axes.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), zlim=(-1.3, 1.3), xlabel="x", ylabel="z", zlabel="y")
-            axes.set_title(f"{name}, a = {fabric['anisotropy']:.3f}")
-            axes.set_box_aspect((1, 1, 1))
-        figure.savefig(path, dpi=110)
+    """Figure 4: the density of contact normals."""
+    tensors = {}
+    for name, sample in samples.items():
+        fabric = run_json("fabric", sample.contacts)
+        xx, yy, zz, xy, xz, yz = fabric["deviatoric_fabric"]
+        tensors[f"{name}, a = {fabric['anisotropy']:.3f}"] = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    draw.fabric_surfaces(path, tensors, size=95, limit=1.3)
 
 
 def _curves(axes: Axes, curves: dict[str, Curve] | dict[str, TestResult], what: str, title: str) -> None:
