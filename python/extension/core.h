@@ -134,4 +134,18 @@ int core_quasi_random(const char *sequence, long long skip, int n, int dimension
 int core_quantiles(int shape, const double *parameters, int n, const double *probabilities, double *values);
 int core_probabilities(int shape, const double *parameters, int n, const double *values, double *probabilities);
 
+/* Calibrations; a handle is the address of one, Python frees each once. A report is taken once, which frees it. */
+int core_calibration_load(const char *path, long long *handle, size_t path_length);
+int core_calibration_parse(const char *text, const char *path, long long *handle, size_t text_length,
+                           size_t path_length);
+void core_calibration_free(long long handle);
+void core_calibration_size(long long handle, int *counts);
+void core_calibration_parameter(long long handle, int index, double *numbers, char *name, size_t size);
+int core_calibration_distance(long long handle, int n, const double *values, int n_tests, double *distance,
+                              double *of_tests);
+int core_calibration_run(long long handle, int *stop);
+int core_calibration_report(long long handle, long long *text);
+void core_report_take(long long text, int n, signed char *bytes);
+int core_calibration_write(long long handle, const char *directory, size_t length);
+
 #endif

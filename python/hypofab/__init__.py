@@ -9,6 +9,7 @@ from importlib import import_module
 from hypofab.errors import HypofabError, InputError, InternalError, PhysicalError, Status
 
 _HOMES = {
+    "calibrations": ("Calibration", "CalibrationResult", "FreeParameter", "LabComparison", "calibrate"),
     "decks": ("Step", "Study", "Test", "TestResult", "element_test", "run"),
     "fabric_changes": (
         *("Directions", "Estimate", "FabricChange", "FabricResponse", "MechanismFit", "Rose"),

@@ -1,5 +1,10 @@
 """The public names, for type checkers; __init__.py loads them when they are asked for."""
 
+from hypofab.calibrations import Calibration as Calibration
+from hypofab.calibrations import CalibrationResult as CalibrationResult
+from hypofab.calibrations import FreeParameter as FreeParameter
+from hypofab.calibrations import LabComparison as LabComparison
+from hypofab.calibrations import calibrate as calibrate
 from hypofab.decks import Step as Step
 from hypofab.decks import Study as Study
 from hypofab.decks import Test as Test

@@ -9,6 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from hypofab import (
+    calibration_figures,
     contact_files,
     cycles,
     dilatancy,
@@ -109,6 +110,9 @@ def parser() -> argparse.ArgumentParser:
         help="CSV of measured tests to draw over: columns eps_q (or eps_1), q, eps_v, p, void_ratio",
     )
 
+    calibration = commands.add_parser("calibration", help="figures of a calibration: tests, residuals, correlations")
+    calibration.add_argument("directory", metavar="DIR", type=Path, help="results of hypofab calibrate")
+
     fabric_command.add_parser(commands)
     sweep_command.add_parser(commands)
 
@@ -153,6 +157,8 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "stiffness":
             columns = {label: stiffness.secant_stiffness(directory) for label, directory in options.runs}
             print(stiffness.table(columns | stiffness.REFERENCES))
+        elif options.command == "calibration":
+            calibration_figures.draw(options.directory, save)
         elif options.command == "fabric":
             fabric_command.run(options, save)
         elif options.command == "sweep":
