@@ -20,7 +20,7 @@ static const struct bounds {
 } usual[HYPOFAB_N_PARAMETERS] = {
     [PHI_C] = {20, 45},  [H_S] = {1e4, 1e8},  [N_EXPONENT] = {0.05, 0.8}, [E_D0] = {0.2, 1.0},
     [E_C0] = {0.4, 1.6}, [E_I0] = {0.5, 2.0}, [ALPHA] = {0.01, 1.0},      [BETA] = {0.1, 5.0},
-    [M_R] = {1.0, 15.0}, [M_T] = {0.5, 10.0}, [R_SIZE] = {5e-6, 1e-3},    [BETA_R] = {0.02, 2.0},
+    [M_R] = {1.0, 15.0}, [M_T] = {1.0, 10.0}, [R_SIZE] = {1e-5, 5e-4},    [BETA_R] = {0.02, 2.0},
     [CHI] = {0.2, 20.0}};
 
 hypofab_status hypofab_calibration_bounds(int index, double kpa, double *lower, double *upper) {
