@@ -17,16 +17,16 @@ LAB_DATA = os.environ.get("HYPOFAB_LAB_DATA")
 
 
 @pytest.fixture
-def sand(examples: Path) -> Path:
+def example(examples: Path) -> Path:
     path = examples / "calibration" / "sand.yaml"
     if not path.exists():
         pytest.skip("the examples are not here")
     return path
 
 
-def test_the_example_gives_the_numbers_of_the_program(sand: Path, tmp_path: Path) -> None:
-    result = hypofab.calibrate(sand, directory=tmp_path / "python")
-    call = ["hypofab", "calibrate", str(sand), "-o", str(tmp_path / "program")]
+def test_the_example_gives_the_numbers_of_the_program(example: Path, tmp_path: Path) -> None:
+    result = hypofab.calibrate(example, directory=tmp_path / "python")
+    call = ["hypofab", "calibrate", str(example), "-o", str(tmp_path / "program")]
     assert os.spawnv(os.P_WAIT, packaged_program(), call) == 0
     other = read_calibration(tmp_path / "program")
     assert result.parameters == other.parameters
