@@ -111,6 +111,9 @@ def karlsruhe(directory: Path, out: Path | None) -> None:
             only_compared=unseen,
             sand="karlsruhe_fine",
         )
+        for entry in mapping["tests"]:  # 25 % of strain: the stiff beginning is a small part of the range
+            if entry["kind"] == "drained_compression":
+                entry["compare"] = {"eps1": 4, "q": 1, "eps_v": 1}
         fit(mapping, out and out / label)
 
 

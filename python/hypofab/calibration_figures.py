@@ -92,6 +92,28 @@ def residuals(result: CalibrationResult) -> Figure:
         return figure
 
 
+def distances(result: CalibrationResult) -> Figure:
+    """Distance of every test from its curve, at the start and found; squares are tests that were not fitted."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(1.2 * COLUMN[0], 0.2 * len(result.tests) + 1.1), layout="constrained")
+        axes = figure.subplots()
+        for use, marker, what in (("fit", "o", "fitted"), ("check", "s", "not fitted")):
+            chosen = [(place, test) for place, test in enumerate(result.tests) if test.use == use]
+            if not chosen:
+                continue
+            places = [place for place, _ in chosen]
+            start, found = ([100 * getattr(test, key) for _, test in chosen] for key in ("start_distance", "distance"))
+            axes.hlines(places, start, found, color="0.7", linewidth=1.0, zorder=1)
+            shape = {"marker": marker, "linestyle": "none", "markersize": 5, "color": "#00508C"}
+            axes.plot(start, places, markerfacecolor="white", label=f"{what}: start", **shape)
+            axes.plot(found, places, label=f"{what}: found", **shape)
+        axes.set_yticks(range(len(result.tests)), [test.name for test in result.tests], fontsize=7)
+        axes.invert_yaxis()
+        axes.set(xlabel="root-mean-square distance [% of the measured range]", xlim=(0, None))
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2, fontsize=8)
+        return figure
+
+
 def correlations(result: CalibrationResult) -> Figure:
     """Correlations of the free parameters: dark is strong, the number tells the sign."""
     names = [parameter.name for parameter in result.parameters]
@@ -119,4 +141,5 @@ def draw(directory: Path, save: Callable[[Figure, Path], None]) -> None:
     for number, page in enumerate(pages, start=1):
         save(page, directory / (f"tests_{number}" if len(pages) > 1 else "tests"))
     save(residuals(result), directory / "residuals")
+    save(distances(result), directory / "distances")
     save(correlations(result), directory / "correlations")

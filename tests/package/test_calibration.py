@@ -42,7 +42,7 @@ def test_the_example_gives_the_numbers_of_the_program(example: Path, tmp_path: P
     assert result.estimates["phi_c"] == (33.5, "angle of repose")
 
     assert main(["calibration", str(tmp_path / "python")]) == 0
-    for name in ("tests_1.png", "tests_2.png", "residuals.png", "correlations.pdf"):
+    for name in ("tests_1.png", "tests_2.png", "residuals.png", "distances.png", "correlations.pdf"):
         assert (tmp_path / "python" / name).stat().st_size > 0
 
 
