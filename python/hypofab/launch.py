@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-PYTHON_COMMANDS = ("plot", "paper", "cycles", "dilatancy", "laboratory", "contacts", "sweep")
+PYTHON_COMMANDS = ("plot", "paper", "cycles", "dilatancy", "laboratory", "contacts", "sweep", "calibration")
 """Commands of `python -m hypofab` that the program does not have."""
 
 
