@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as parquet
 import pytest
-from sweep_models import INPUTS, OUTPUTS, deck, product
+from sweep_models import INPUTS, OUTPUTS, deck, end_pressure, product
 
 import hypofab
 
@@ -131,6 +131,22 @@ def test_a_run_that_fails_is_a_row_with_its_reason() -> None:
     ((reason, count),) = result.failures().items()
     assert count == 1
     assert "void_ratio = -1" in reason
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_many_points_at_once_by_the_batch(workers: int) -> None:
+    inputs = {"p": {"values": [50.0, 100.0, 400.0]}, "e": {"values": [*np.linspace(0.6, 0.8, 100), 0.7123]}}
+    result = hypofab.sweep(end_pressure, inputs, {"kind": "grid"}, ["p_end"], many=True, workers=workers)
+    bad = result["e"] == 0.7123
+    assert set(result["status"][bad]) == {hypofab.Status.INTERNAL_ERROR}
+    assert result.failures() == {"ValueError: not this one": 3}
+    assert result.done.sum() == 300
+    sand = hypofab.Material.sand("hochstetten")
+    for row in (0, 150, 301):
+        start = hypofab.State.isotropic(result["p"][row], result["e"][row])
+        assert result["p_end"][row] == pytest.approx(hypofab.update(sand, start, [0, 0, -1e-4, 0, 0, 0]).state.p)
+    with pytest.raises(hypofab.InputError, match="with many=True a function of arrays"):
+        hypofab.sweep(deck(), INPUTS, {"kind": "sobol", "runs": 2}, OUTPUTS, many=True)
 
 
 def stopping() -> dict:

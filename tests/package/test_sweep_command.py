@@ -14,7 +14,6 @@ from sweep_models import INPUTS, OUTPUTS, deck, fragile
 import hypofab
 from hypofab.__main__ import main
 from hypofab.decks import deck_text
-from hypofab.sweeps import figures
 
 SOBOL = {"kind": "saltelli", "base": 8}
 
@@ -90,14 +89,16 @@ def test_progress_tells_what_is_left(capsys: pytest.CaptureFixture[str]) -> None
 def test_labels_have_units_and_missing_outputs_show() -> None:
     inputs = {"e": {"path": "states[start].void_ratio", "values": [0.7, -1, 0.8]}}
     result = hypofab.sweep(deck(), inputs | {"phi": INPUTS["phi"]}, {"kind": "sobol", "runs": 12}, OUTPUTS, workers=1)
-    axes = figures.scatter(result).axes
+    axes = result.plot().axes
     assert [one.get_xlabel() for one in axes] == ["e [-]", "phi [deg]"]
     assert axes[0].get_ylabel() == "q [kPa]"
-    assert "4 of 12 runs without" in figures.histograms(result).axes[0].get_title()
-    fan = figures.fan(result, "curve").axes[0]
+    assert "4 of 12 runs without" in result.plot("histograms").axes[0].get_title()
+    fan = result.plot("fan", name="curve").axes[0]
     assert (fan.get_xlabel(), fan.get_ylabel()) == ("eps_zz [-]", "curve [kPa]")
     with pytest.raises(hypofab.InputError, match="'q' is no curve"):
-        figures.fan(result, "q")
+        result.plot("fan", name="q")
+    with pytest.raises(hypofab.InputError, match="kind = 'pie', expected one of scatter, histograms, fan"):
+        result.plot("pie")
 
 
 def test_the_examples_are_good(examples: Path) -> None:

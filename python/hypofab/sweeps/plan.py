@@ -16,7 +16,7 @@ from hypofab.library import version
 from hypofab.sweeps.deck_path import PathError, path_text, replaced
 from hypofab.sweeps.design import Design, read_design
 from hypofab.sweeps.inputs import Input, read_inputs
-from hypofab.sweeps.models import BuiltModel, DeckModel, FunctionModel, Model
+from hypofab.sweeps.models import BuiltModel, DeckModel, FunctionModel, ManyModel, Model
 from hypofab.sweeps.outputs import Output, read_outputs
 from hypofab.sweeps.source import Node, Source, read_yaml
 from hypofab.sweeps.store import RESERVED, schema_of
@@ -47,13 +47,18 @@ class Plan:
         return schema_of(self.points, self.outputs)
 
 
-def read_plan(source: Source, folder: str | os.PathLike | None = None) -> Plan:
-    """Check a sweep. folder: that of the paths in a deck that is a mapping (default: that of the file, or here)."""
+def read_plan(source: Source, folder: str | os.PathLike | None = None, *, many: bool = False) -> Plan:
+    """Check a sweep. folder: that of the paths in a deck that is a mapping (default: that of the file, or here).
+
+    many: the deck is a function of many points at once.
+    """
     root = Node(source, (), source.root)
     entries = root.mapping(_KEYS, _KEYS)
     deck = entries["deck"]
     if callable(deck.value):
-        return _of_function(root, entries, os.fspath(folder or "."))
+        return _of_function(root, entries, os.fspath(folder or "."), many)
+    if many:
+        deck.refuse("with many=True a function of arrays")
     if isinstance(deck.value, str | os.PathLike):
         path = Path(deck.value)
         if source.path is not None:
@@ -96,16 +101,18 @@ def _of_deck(root: Node, entries: Mapping[str, Node], deck: Mapping[str, Any], f
     return _plan(root, entries, model, inputs, design, outputs, what)
 
 
-def _of_function(root: Node, entries: Mapping[str, Node], folder: str) -> Plan:
+def _of_function(root: Node, entries: Mapping[str, Node], folder: str, many: bool) -> Plan:
     function: Callable = entries["deck"].value
     inputs = read_inputs(entries["inputs"], deck=False)
     design = read_design(entries["design"], inputs)
+    if isinstance(entries["outputs"].value, Mapping) and many:
+        entries["outputs"].fail("a function of arrays gives the outputs, expected a list of their names")
     if isinstance(entries["outputs"].value, Mapping):
         outputs = read_outputs(entries["outputs"], None)
         model: Model = BuiltModel(function, os.path.abspath(folder), outputs)
     else:
         outputs = tuple(item.text("the name of an output") for item in entries["outputs"].items())
-        model = FunctionModel(function, outputs)
+        model = (ManyModel if many else FunctionModel)(function, outputs)
     name = f"{getattr(function, '__module__', '?')}.{getattr(function, '__qualname__', repr(type(function)))}"
     return _plan(root, entries, model, inputs, design, outputs, {"function": name})
 

@@ -19,7 +19,7 @@ from hypofab.errors import InputError, InternalError, Status
 from hypofab.sweeps.models import Model, Outcome, Point, row_of, run_points
 
 _CHUNK_SECONDS = 0.25
-_LARGEST_CHUNK = 500
+_LARGEST_CHUNK = 10_000
 _AHEAD = 3  # chunks for each worker: one in work, the others waiting
 _UNKNOWN_WORKERS = 64
 ENDED = "the process that ran it ended (killed, or out of memory)"
@@ -57,10 +57,9 @@ def run_here(model: Model, points: pa.Table, pending: np.ndarray) -> Iterator[Ro
     """One after the other in this process."""
     queue = _Queue(points, pending, 1)
     while queue:
-        for run in queue.take():
-            rows = run_points(model, [run])
-            queue.learn(rows)
-            yield rows
+        rows = run_points(model, queue.take())
+        queue.learn(rows)
+        yield rows
 
 
 def run_on(

@@ -4,13 +4,16 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hypofab.errors import InputError, Status
 from hypofab.sweeps.sweep import SweepResult, sweep
 from hypofab.tensors import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +34,12 @@ class SobolIndices:
     left_out: int
     """base samples in which a run failed, or has no such output"""
     confidence: float
+
+    def plot(self) -> "Figure":
+        """A bar chart; several outputs beside each other: hypofab.sweeps.figures.sobol_bars."""
+        from hypofab.sweeps.figures import sobol_bars  # matplotlib, only where it is wanted
+
+        return sobol_bars({self.output: self})
 
     def mapping(self) -> dict[str, Any]:
         """As JSON keeps it."""
@@ -113,6 +122,7 @@ def sobol(
     sequence: str | None = None,
     confidence: float = 0.95,
     resamples: int = 200,
+    many: bool = False,
     into: str | os.PathLike | None = None,
     folder: str | os.PathLike | None = None,
     executor: Executor | None = None,
@@ -131,6 +141,7 @@ def sobol(
         inputs,
         design,
         outputs,
+        many=many,
         into=into,
         folder=folder,
         executor=executor,

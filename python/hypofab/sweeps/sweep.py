@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from contextlib import closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
@@ -19,6 +19,9 @@ from hypofab.sweeps.running import Rows, processors, run_here, run_in_processes,
 from hypofab.sweeps.source import Source, read_yaml
 from hypofab.sweeps.store import Store, read_folder, table_of
 from hypofab.tensors import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class _Bar(tqdm):
@@ -72,6 +75,18 @@ class SweepResult:
         reasons = self.table["reason"].drop_null().to_pylist()
         return {reason: reasons.count(reason) for reason in dict.fromkeys(reasons)}
 
+    def plot(self, kind: str = "scatter", **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
+        """A figure: "scatter" (outputs over inputs), "histograms", or "fan" of a curve (name="q").
+
+        Options are those of the function of this name in hypofab.sweeps.figures.
+        """
+        from hypofab.sweeps import figures  # matplotlib, only where it is wanted
+
+        kinds = {"scatter": figures.scatter, "histograms": figures.histograms, "fan": figures.fan}
+        if kind not in kinds:
+            raise InputError(f"kind = '{kind}', expected one of {', '.join(kinds)}", Status.BAD_ARGUMENT)
+        return kinds[kind](self, **options)
+
     def unit(self, name: str) -> str:
         """The unit that an input or output was told to have, "" if none."""
         told = self.manifest["sweep"]
@@ -85,6 +100,7 @@ def sweep(
     design: Mapping[str, Any] | None = None,
     outputs: Mapping[str, Any] | Sequence[str] | None = None,
     *,
+    many: bool = False,
     into: str | os.PathLike | None = None,
     folder: str | os.PathLike | None = None,
     executor: Executor | None = None,
@@ -96,6 +112,8 @@ def sweep(
     deck: a deck file, a deck as a mapping, a function of the point (a dict of the inputs) that gives a deck, tests or,
     where `outputs` is a list of names, the outputs themselves; alone: a sweep file.
     inputs, design, outputs: as in sweep files.
+    many: the function takes arrays of the inputs of many points, and gives arrays: a mapping, a tuple in the order of
+    the outputs, or one array. For what hypofab.update_many computes.
     into: folder for the results, where an interrupted sweep goes on; None: results stay in memory.
     folder: that of the paths in a mapping (default: here).
     executor: any of concurrent.futures; None: processes of this machine.
@@ -108,7 +126,9 @@ def sweep(
     else:
         given = {"deck": deck, "inputs": inputs, "design": design, "outputs": outputs}
         source = Source({key: value for key, value in given.items() if value is not None})
-    return run_plan(read_plan(source, folder), into=into, executor=executor, workers=workers, progress=progress)
+    return run_plan(
+        read_plan(source, folder, many=many), into=into, executor=executor, workers=workers, progress=progress
+    )
 
 
 def run_plan(
