@@ -113,6 +113,18 @@ def test_one_input_may_have_several_places_and_c_is_one(examples: Path) -> None:
     assert not np.array_equal(first, second)
 
 
+def test_a_contact_file_that_changes_is_read_again(tmp_path: Path) -> None:
+    base = deck(delta={"contacts": "normals.txt"})
+    inputs = {"e": {"path": "states[start].void_ratio", "values": [0.7]}}
+    found = []
+    for third in ("0 0 1", "0.6 0 0.8"):
+        (tmp_path / "normals.txt").write_text(f"nx ny nz\n1 0 0\n0 1 0\n{third}\n0.6 0.8 0\n")
+        outputs = {"delta": {"quantity": "delta_xz", "at": "start"}}
+        found.append(hypofab.sweep(base, inputs, {"kind": "grid"}, outputs, folder=tmp_path, workers=1)["delta"][0])
+    assert found[0] == 0
+    assert found[1] != 0
+
+
 def test_correlated_inputs() -> None:
     normal = {"normal": {"mean": 10, "deviation": 2}}
     inputs = {"x": normal, "y": normal | {"unit": "m"}}

@@ -137,6 +137,15 @@ def test_arguments_of_the_call() -> None:
         hypofab.sweep(product, {"x": {"path": "x", "values": [1]}}, {"kind": "grid"}, ["z"])
 
 
+def test_values_that_are_not_admissible_are_no_reason_to_refuse() -> None:
+    inputs = {"e": {"path": "states[start].void_ratio", "values": [-1, -2]}}
+    result = hypofab.sweep(deck(), inputs, {"kind": "grid"}, OUTPUTS, workers=1)
+    assert not result.done.any()
+
+
 def test_no_results_to_read(tmp_path: Path) -> None:
     with pytest.raises(hypofab.InputError, match=r"manifest\.json: No such file"):
+        hypofab.read_sweep(tmp_path)
+    (tmp_path / "manifest.json").write_text("{}")
+    with pytest.raises(hypofab.InputError, match=r"manifest\.json: no manifest of a sweep"):
         hypofab.read_sweep(tmp_path)

@@ -35,9 +35,6 @@ class Design:
     kind: str
     points: pa.Table
     """one row per run, one column per input"""
-    base: int = 0
-    """of the kind saltelli: base samples; runs = base (inputs + 2)"""
-    seed: int | None = None
 
     def digest(self) -> str:
         """SHA-256 of the points: a table's content, too, is part of what a sweep is."""
@@ -68,7 +65,7 @@ def read_design(node: Node, inputs: Sequence[Input]) -> Design:
         return Design(kind, _grid(node, inputs))
     if kind == "saltelli":
         base = _required(node, entries, "base").whole(2, "a whole number, 2 or more, best a power of 2")
-        return Design(kind, _saltelli(node, entries, inputs, base, seed), base, seed)
+        return Design(kind, _saltelli(node, entries, inputs, base, seed))
     runs = _required(node, entries, "runs").whole(1, "a whole number, 1 or more")
     _check_runs(node, runs)
     if kind == "random":
@@ -79,7 +76,7 @@ def read_design(node: Node, inputs: Sequence[Input]) -> Design:
         unit = quasi_random(kind, len(inputs), runs, skip=skip, seed=seed)
     if "correlation" in entries:
         unit = _correlated(unit, _correlation(entries["correlation"], inputs))
-    return Design(kind, _columns(inputs, unit), seed=seed)
+    return Design(kind, _columns(inputs, unit))
 
 
 def _required(node: Node, entries: Mapping[str, Node], key: str) -> Node:

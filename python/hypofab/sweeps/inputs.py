@@ -26,8 +26,6 @@ class Input:
     distribution: Distribution | None = None
     values: tuple[Any, ...] | None = None
     """the values it takes; None, and no distribution: those of a table"""
-    unit: str = ""
-    """for figures"""
 
     def take(self, probabilities: Array) -> Any:  # noqa: ANN401 - an array of numbers, or a list
         """Values at probabilities in [0, 1): quantiles, or the values in equal parts."""
@@ -56,7 +54,9 @@ def _read(name: str, node: Node, deck: bool) -> Input:
     if ways:
         given |= _WAY[ways[0].keys[-1]](ways[0])
     paths = _paths(entries["path"]) if deck else ()
-    return Input(name, paths, unit=entries["unit"].text() if "unit" in entries else "", **given)
+    if "unit" in entries:
+        entries["unit"].text()  # the manifest keeps it, for figures
+    return Input(name, paths, **given)
 
 
 def _paths(node: Node) -> tuple[tuple[Step, ...], ...]:

@@ -154,7 +154,9 @@ def row_of(number: int, outcome: Outcome, seconds: float) -> dict[str, Any]:
 
 
 @lru_cache(maxsize=64)
-def _fabric(path: str, particles: str | None, columns: tuple, separator: str) -> tuple[float, ...]:
+def _fabric(
+    path: str, particles: str | None, columns: tuple, separator: str, _versions: tuple[tuple[int, int], ...]
+) -> tuple[float, ...]:
     count = int(particles) if particles and particles.isdecimal() else particles
     fabric = fabric_of_file(path, particles=count, columns=dict(columns), separator=separator)
     return tuple(fabric.fabric.tolist())
@@ -179,5 +181,15 @@ def _with_fabric(state: Any, folder: str) -> Any:  # noqa: ANN401 - a part of a 
         particles = str(particles)
         particles = particles if particles.isdecimal() else os.path.join(folder, particles)
     columns = tuple(sorted((str(key), str(value)) for key, value in (rest.pop("columns", None) or {}).items()))
-    tensor = _fabric(path, particles, columns, str(rest.pop("separator", None) or ""))
+    versions = (_version(path), _version(particles))
+    tensor = _fabric(path, particles, columns, str(rest.pop("separator", None) or ""), versions)
     return {**state, "delta": {**rest, "fabric": list(tensor)}}
+
+
+def _version(path: str | None) -> tuple[int, int]:
+    """Time and size of a file: another version of it is read again."""
+    try:
+        found = os.stat(path or "")
+    except OSError:
+        return (0, 0)  # reading it says what is wrong
+    return (found.st_mtime_ns, found.st_size)

@@ -34,8 +34,6 @@ class Output:
     """curve over the quantity `other`: from, to, points"""
     stopped: bool = False
     """keep it when the test stopped early, too"""
-    unit: str = ""
-    """for figures; "": that of the quantity"""
 
     @property
     def is_curve(self) -> bool:
@@ -71,6 +69,8 @@ class Output:
 
 def crossings(x: Array, y: Array, wanted: Array) -> Array:
     """The y where x first meets each wanted value, straight between rows; NaN where it never does."""
+    known = ~np.isnan(x)
+    x, y = x[known], y[known]
     if len(x) == 0:
         return np.full(len(wanted), np.nan)
     steps = np.diff(x)
@@ -131,7 +131,7 @@ def _read(name: str, node: Node, tests: Mapping[str, bool] | None) -> Output:
             entries["stopped"].refuse("true or false")
         kept["stopped"] = bool(entries["stopped"].value)
     if "unit" in entries:
-        kept["unit"] = entries["unit"].text()
+        entries["unit"].text()  # the manifest keeps it, for figures
     if "over" in entries:
         if "at" in entries:
             entries["at"].fail("an output has at or over, not both")

@@ -11,7 +11,7 @@ import numpy as np
 import pyarrow as pa
 
 from hypofab.decks import Study
-from hypofab.errors import InputError
+from hypofab.errors import InputError, Status
 from hypofab.library import version
 from hypofab.sweeps.deck_path import PathError, path_text, replaced
 from hypofab.sweeps.design import Design, read_design
@@ -143,7 +143,10 @@ def _plan(
 
 
 def _try(root: Node, model: DeckModel, inputs: tuple[Input, ...], design: Design) -> None:
-    """Refuse a sweep of which no run would get past the reading of its deck: a wrong path, most often."""
+    """Refuse a sweep of which no run would get past the keys of its deck: a wrong path, most often.
+
+    Values that are not admissible are reasons of single runs.
+    """
     numbers = np.unique(np.linspace(0, design.points.num_rows - 1, _TRIED).astype(int))
     refusals = []
     for point in design.points.take(pa.array(numbers)).to_pylist():
@@ -151,6 +154,8 @@ def _try(root: Node, model: DeckModel, inputs: tuple[Input, ...], design: Design
             model.study(point)
             return
         except InputError as error:
+            if error.status is not Status.BAD_FILE:
+                return
             refusals.append((point, str(error)))
     point, reason = refusals[0]
     for one in inputs:

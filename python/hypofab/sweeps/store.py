@@ -82,13 +82,16 @@ class Store:
             raise InputError(f"{folder}: another process works on this sweep", Status.BAD_ARGUMENT) from error
         try:
             self._check_manifest(manifest)
+            for left in self._rows.glob("*.tmp"):
+                left.unlink()
+            if not self.results.exists():
+                self._rows.mkdir(exist_ok=True)
+        except OSError as error:
+            self._lock.close()
+            raise InternalError(f"{error.filename}: {error.strerror}", Status.IO_ERROR) from error
         except BaseException:
             self._lock.close()
             raise
-        for left in self._rows.glob("*.tmp"):
-            left.unlink()
-        if not self.results.exists():
-            self._rows.mkdir(exist_ok=True)
         self._buffer: list[Mapping[str, Any]] = []
         self._begun = self._written = time.monotonic()
 
@@ -108,8 +111,7 @@ class Store:
         # As JSON has it, so that tuples and lists are the same.
         wanted = json.loads(json.dumps(manifest))
         if path.exists():
-            found = json.loads(path.read_text(encoding="utf-8"))
-            place = first_difference(found["sweep"], wanted["sweep"])
+            place = first_difference(read_manifest(self.folder)["sweep"], wanted["sweep"])
             if place is not None:
                 raise InputError(f"{path}: {place}; expected the same sweep, or another folder", Status.BAD_ARGUMENT)
             return
@@ -165,6 +167,20 @@ class Store:
     def read(self) -> pa.Table:
         """What is written so far, in the order of the runs."""
         return read_folder(self.folder, self.schema)
+
+
+def read_manifest(folder: Path) -> Mapping[str, Any]:
+    """What the sweep in a folder is."""
+    path = folder / "manifest.json"
+    try:
+        manifest = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}", Status.BAD_FILE) from error
+    except ValueError as error:
+        raise InputError(f"{path}: {error}", Status.BAD_FILE) from error
+    if not isinstance(manifest, dict) or "sweep" not in manifest:
+        raise InputError(f"{path}: no manifest of a sweep", Status.BAD_FILE)
+    return manifest
 
 
 def read_folder(folder: Path, schema: pa.Schema | None = None) -> pa.Table:

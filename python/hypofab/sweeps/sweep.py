@@ -1,7 +1,7 @@
 """Run a sweep: what is already in its folder is kept, the rest is run on some executor and written as it comes."""
 
-import json
 import os
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, nullcontext
@@ -17,7 +17,7 @@ from hypofab.errors import InputError, Status
 from hypofab.sweeps.plan import Plan, read_plan
 from hypofab.sweeps.running import Rows, processors, run_here, run_in_processes, run_on
 from hypofab.sweeps.source import Source, read_yaml
-from hypofab.sweeps.store import Store, read_folder, table_of
+from hypofab.sweeps.store import Store, read_folder, read_manifest, table_of
 from hypofab.tensors import Array
 
 if TYPE_CHECKING:
@@ -72,8 +72,7 @@ class SweepResult:
 
     def failures(self) -> dict[str, int]:
         """Reasons of runs that failed or stopped early, and how often each occurred."""
-        reasons = self.table["reason"].drop_null().to_pylist()
-        return {reason: reasons.count(reason) for reason in dict.fromkeys(reasons)}
+        return dict(Counter(self.table["reason"].drop_null().to_pylist()))
 
     def plot(self, kind: str = "scatter", **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
         """A figure: "scatter" (outputs over inputs), "histograms", or "fan" of a curve (name="q").
@@ -176,8 +175,5 @@ def _runs(plan: Plan, pending: np.ndarray, executor: Executor | None, workers: i
 def read_sweep(folder: str | os.PathLike) -> SweepResult:
     """Results of a sweep from its folder; while it runs, or after it was interrupted, those that there are."""
     folder = Path(folder)
-    try:
-        manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{folder / 'manifest.json'}: {error.strerror}", Status.BAD_FILE) from error
+    manifest = read_manifest(folder)
     return SweepResult(read_folder(folder), manifest, folder)
