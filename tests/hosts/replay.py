@@ -152,3 +152,27 @@ def differences_from_path(
     difference = relative_difference(effective_stress(stress, statev), tensor(reference, "sig"))
     print(f"difference from the driver's own test: {difference:.1e}")
     return difference
+
+
+def check_beyond_zero_stress(axial_strain: Array, stress: Array, mark: Array) -> None:
+    """An oedometer extended by 1 % and compressed again, from 100 kPa: the host goes on at zero stress and back.
+
+    mark: STATEV(13), negative where the stress is at or beyond zero.
+    """
+    beyond = axial_strain > 0.7 * axial_strain.max()
+    print(f"largest stress beyond zero: {np.abs(stress[beyond]).max():.1e} kPa")
+    assert np.isfinite(stress).all()
+    assert np.abs(stress[beyond]).max() < 1e-2
+    assert np.all(mark[beyond] < 0)
+    assert mark[-1] > 0
+    assert np.all(stress[-1, :3] < -20)
+    # The grains meet again where they parted.
+    peak = int(axial_strain.argmax())
+    parted, met = (
+        float(np.interp(1.0, -part, strain))
+        for part, strain in (
+            (stress[peak::-1, 2], axial_strain[peak::-1]),
+            (stress[peak:, 2], axial_strain[peak:]),
+        )
+    )
+    assert abs(parted - met) < 2e-3

@@ -301,6 +301,28 @@ static void test_increment_that_cannot_be_followed(void **unused) {
 }
 
 /* A text with its length in front, from a buffer in which nothing else was written. */
+/* PLAXIS cannot be asked for a smaller step: zero and tensile stress are followed, and marked. */
+static void test_zero_and_tensile_stress(void **unused) {
+  (void)unused;
+  static const double stresses[][6] = {{0}, {5, 5, 5, 0, 0, 0}, {-100, -100, 3, 0, 0, 0}, {-1e-9, 0, 0, 0, 0, 0}};
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  for (size_t i = 0; i < sizeof stresses / sizeof *stresses; i++) {
+    hypofab_state state = {{0}, {0}, 0.7};
+    memcpy(state.stress, stresses[i], sizeof state.stress);
+    const double strain[6] = {1e-5, 1e-5, 1e-5, 0, 0, 0};
+    arguments a = arguments_of(&material, 0.7);
+    fill(&a, &state, strain);
+    assert_int_equal(call(STRESS, &a), 0);
+    assert_true(a.stvar[13] == 3.0 && a.stvar[12] < 0.0 && a.stvar[9] > 0.0);
+    for (int k = 0; k < 6; k++) assert_true(isfinite(a.sig[k]));
+    for (int task = 0; task < 2; task++) {
+      assert_int_equal(call(task ? ELASTIC : STIFFNESS, &a), 0);
+      for (int k = 0; k < 6; k++) assert_true(isfinite(a.d[7 * k]) && a.d[7 * k] > 0.0);
+    }
+  }
+}
+
 static const char *text_of(const char buffer[256], char text[256]) {
   const int length = (unsigned char)buffer[0];
   memcpy(text, buffer + 1, (size_t)length);
@@ -369,6 +391,7 @@ int main(void) {
       cmocka_unit_test(test_undrained),
       cmocka_unit_test(test_bad_input_aborts),
       cmocka_unit_test(test_increment_that_cannot_be_followed),
+      cmocka_unit_test(test_zero_and_tensile_stress),
       cmocka_unit_test(test_queries),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

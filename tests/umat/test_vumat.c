@@ -369,6 +369,32 @@ static void test_bad_point_keeps_its_state(void **unused) {
   block_free(&b);
 }
 
+/* Points at and beyond zero stress go on, and say so; the one beside them is an ordinary one. */
+static void test_zero_and_tensile_stress(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  double props[16];
+  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  props_of(&material, 0.7, props);
+  for (int single = 0; single < 2; single++)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      static const double stress[4] = {0.0, 5.0, -1e-9, -100.0};
+      block b = block_create(4, 3, 14, single, props);
+      for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 6; k++) {
+          put(&b, STRESS_OLD, i, k, k < 3 ? stress[i] : 0.0);
+          put(&b, STRAIN_INC, i, k, k < 3 ? sign * 1e-5 : 0.0);
+        }
+      block_call(&b);
+      for (int i = 0; i < 4; i++) {
+        assert_true(get(&b, STATE_NEW, i, 9) > 0.0 && get(&b, STATE_NEW, i, 13) == get(&b, STATE_OLD, i, 13));
+        assert_true((get(&b, STATE_NEW, i, 12) < 0.0) == (i < 3));
+        if (i < 3) assert_true(fabs(get(&b, STRESS_NEW, i, 0) - stress[i]) < 1e-3);
+      }
+      block_free(&b);
+    }
+}
+
 /* What is wrong for every point: parameters, their number, the number of state variables, the kind of element. */
 static void test_bad_set_up_keeps_every_state(void **unused) {
   (void)unused;
@@ -430,10 +456,15 @@ static void test_initial_void_ratio(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_blocks_equal_umat),         cmocka_unit_test(test_empty_block),
-      cmocka_unit_test(test_single_precision),          cmocka_unit_test(test_rotation),
-      cmocka_unit_test(test_bad_point_keeps_its_state), cmocka_unit_test(test_bad_set_up_keeps_every_state),
-      cmocka_unit_test(test_energy_needs_a_density),    cmocka_unit_test(test_initial_void_ratio),
+      cmocka_unit_test(test_blocks_equal_umat),
+      cmocka_unit_test(test_empty_block),
+      cmocka_unit_test(test_single_precision),
+      cmocka_unit_test(test_rotation),
+      cmocka_unit_test(test_bad_point_keeps_its_state),
+      cmocka_unit_test(test_zero_and_tensile_stress),
+      cmocka_unit_test(test_bad_set_up_keeps_every_state),
+      cmocka_unit_test(test_energy_needs_a_density),
+      cmocka_unit_test(test_initial_void_ratio),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

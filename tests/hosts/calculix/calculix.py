@@ -42,10 +42,11 @@ def start_of(model: str) -> Start:
     return Start(props, data("INITIAL CONDITIONS,TYPE=STRESS", 1)[2:], delta, props[15])
 
 
-def run(deck: str, folder: Path, solution: str | None = None) -> Run:
+def run(deck: str, folder: Path, solution: str | None = None, edit: tuple[str, str, str] | None = None) -> Run:
     """Run a deck (its name without .inp) of examples/fe/calculix or of this folder, in a copy of the former.
 
-    solution: lines in place of those of sand_cube.inp that give the state variables at the start.
+    solution: lines in place of those of sand_cube.inp that give the state variables at the start; edit: file name, text
+    to replace, and by what.
     """
     work = folder / "calculix"
     shutil.copytree(EXAMPLES, work)
@@ -55,6 +56,11 @@ def run(deck: str, folder: Path, solution: str | None = None) -> Run:
         text, count = re.subn(lines, lambda _: solution, model.read_text())
         assert count == 1
         model.write_text(text)
+    if edit is not None:
+        name, old, new = edit
+        text = (work / name).read_text()
+        assert old in text
+        (work / name).write_text(text.replace(old, new))
     for extra in Path(__file__).parent.glob("*.inp"):
         shutil.copy(extra, work)
     (work / "libHYPOFAB.so").symlink_to(BUILD / "umat" / "libhypofab_umat.so")

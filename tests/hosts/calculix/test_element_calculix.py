@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from calculix import PROGRAM, Run, run, start_of
-from replay import Start, differences_from_path, differences_on_host_strain, preset
+from replay import Start, check_beyond_zero_stress, differences_from_path, differences_on_host_strain, preset
 
 TOLERANCE = 1e-5
 
@@ -76,6 +76,13 @@ def test_oedometer(tmp_path: Path) -> None:
     compare(result, start, tmp_path)
     steps = preset("oedometer_loading", "oedometer_unloading")
     assert difference_from(steps, result, start, tmp_path) < TOLERANCE
+
+
+def test_beyond_zero_stress_and_back(tmp_path: Path) -> None:
+    path = ("path.inp", "0.51,-0.005,0.61,-0.0045\n1.01,-0.0085", "0.51,0.01\n1.01,-0.002")
+    result = run("oedometer", tmp_path, edit=path)
+    assert not any(given_up for _, given_up in result.attempts)
+    check_beyond_zero_stress(result.strain[:, 2], result.stress, result.statev[:, 12])
 
 
 def test_plane_strain(tmp_path: Path) -> None:

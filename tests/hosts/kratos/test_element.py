@@ -8,7 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from kratos import EXAMPLES, PROGRAM, Run, run, start_of
-from replay import Start, differences_from_path, differences_on_host_strain, preset, straight
+from replay import (
+    Start,
+    check_beyond_zero_stress,
+    differences_from_path,
+    differences_on_host_strain,
+    preset,
+    straight,
+)
 
 TOLERANCE = 1e-6
 
@@ -89,6 +96,13 @@ def test_oedometer(tmp_path: Path) -> None:
     result, start = host("oedometer.json", tmp_path), start_of("oedometer.json")
     compare(result, start, tmp_path)
     assert difference_from(preset("oedometer_loading", "oedometer_unloading"), result, start, tmp_path) < TOLERANCE
+
+
+def test_beyond_zero_stress_and_back(tmp_path: Path) -> None:
+    path = ("cube.mdpa", "0.5 -0.0050\n0.6 -0.0045\n1.0 -0.0085", "0.5 0.01\n1.0 -0.002")
+    result = host("oedometer.json", tmp_path, [path])
+    assert sum(step.cuts for step in result.steps) == 0
+    check_beyond_zero_stress(result.strain[:, 2], result.stress, result.statev[:, 12])
 
 
 def test_plane_strain(tmp_path: Path) -> None:

@@ -8,7 +8,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from opengeosys import PROGRAM, Run, run, start_of
-from replay import Array, Start, deck, norm, relative_difference, run_driver, strain_steps, tensor
+from replay import (
+    Array,
+    Start,
+    check_beyond_zero_stress,
+    deck,
+    norm,
+    relative_difference,
+    run_driver,
+    strain_steps,
+    tensor,
+)
 
 TOLERANCE = 1e-6
 
@@ -74,6 +84,16 @@ def test_undrained_triaxial_with_pore_water_in_the_behaviour(examples: Path, tmp
     assert np.ptp(result.scalars("pore_pressure")) > 20
     compare_replayed(result, start, tmp_path)
     compare(result, start, preset("undrained_triaxial_compression", "undrained_triaxial_extension"), tmp_path)
+
+
+def test_beyond_zero_stress_and_back(examples: Path) -> None:
+    project = examples / "beyond_zero.prj"
+    text = (examples / "oedometer.prj").read_text()
+    assert "<values>0 -0.01 -0.008</values>" in text
+    project.write_text(text.replace("<values>0 -0.01 -0.008</values>", "<values>0 0.01 -0.002</values>"))
+    result = run(project)
+    assert all(step.accepted for step in result.steps)
+    check_beyond_zero_stress(result.tensors("epsilon")[:, 2], result.tensors("sigma"), result.scalars("substep"))
 
 
 def test_oedometer(examples: Path, tmp_path: Path) -> None:
