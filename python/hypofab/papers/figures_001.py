@@ -19,6 +19,7 @@ from hypofab.results import Array
 if TYPE_CHECKING:
     from hypofab.papers.paper_001 import ElementFan, Fan
 
+MARKERS = "os^Dv*"
 MECHANISMS = ("loss", "gain", "reorientation")
 
 
@@ -27,7 +28,7 @@ def stress_panel(axes: Axes, index: int, strain: Array, stress: Array, matrix: A
     style = line_style(index)
     angle = np.linspace(0, 2 * np.pi, 181)
     axes.plot(*(matrix @ np.stack([np.cos(angle), np.sin(angle)]) * strain.mean()), **(style | {"linewidth": 1.0}))
-    axes.plot(*stress.T, "os^Dv*"[index % 6], markersize=3.5, color=style["color"], label=label)
+    axes.plot(*stress.T, MARKERS[index % 6], markersize=3.5, color=style["color"], label=label)
 
 
 def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
@@ -74,9 +75,8 @@ def rates(fans: list[Fan], path: Path) -> None:
                 for index, fan in enumerate(fans):
                     style = line_style(index)
                     label = f"Z = {fan.coordination:.2f}"
-                    panel.plot(
-                        fan.alpha, fan.rate(mechanism, which), "o", markersize=3, color=style["color"], label=label
-                    )
+                    points = {"marker": MARKERS[index % 6], "linestyle": "", "markersize": 3, "color": style["color"]}
+                    panel.plot(fan.alpha, fan.rate(mechanism, which), label=label, **points)
                     panel.plot(fine, fan.law(mechanism, which, fine), **(style | {"linewidth": 1.0}))
                 name = {"dZ": r"$\Delta Z^*$", "dA": r"$\Delta A^*$"}[which]
                 panel.set(xlim=(0, 360), xticks=range(0, 361, 90), title=f"{name}, {mechanism}")
@@ -84,7 +84,7 @@ def rates(fans: list[Fan], path: Path) -> None:
                     panel.set_xlabel(r"direction $\alpha$ [deg]")
                 low, high = {"gain": (18.4, 71.6), "loss": (198.4, 251.6)}.get(mechanism, (0, 0))
                 panel.axvspan(low, high, color="0.9")
-        axes[0].legend()
+        axes[2].legend(*axes[0].get_legend_handles_labels(), loc="center")
 
 
 def pooled_rose(fans: list[Fan], angle: float, mechanism: str) -> tuple[Array, complex]:
