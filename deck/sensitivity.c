@@ -145,7 +145,7 @@ static int watch(int step, double done, void *user) {
 hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int test, int n_names,
                                                 const char *const *names, hypofab_sensitivity_sink sink,
                                                 int (*watched)(int step, double done, void *user), void *user,
-                                                hypofab_test_outcome *outcome) {
+                                                int *columns, hypofab_test_outcome *outcome) {
   if (!is_test(study, test) || !sink)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "expected a loaded study, a number of one of its tests, and a sink");
   const study_test *resolved = &study->tests[test];
@@ -153,6 +153,7 @@ hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int 
   hypofab_variation *variations;
   hypofab_status status = study_variations(study, test, names, &n_names, &variations);
   if (status) return status;
+  if (columns) *columns = study_columns(resolved);
   delivery to = {study, sink, watched, user, n_names, NULL};
   to.derivative = calloc((size_t)n_names + 1, HYPOFAB_N_QUANTITIES * sizeof *to.derivative);
   hypofab_test_options options = resolved->options;

@@ -1,6 +1,7 @@
 #include "driver/sensitivity.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +15,9 @@
 /* Of the integrator between two rows or events: beyond it the derivatives grow without bound. Some hundred are usual.
  */
 static const long most_steps = 50000;
+
+/* Place of R among the parameters. */
+enum { R_PLACE = offsetof(hypofab_material, R) / sizeof(double) };
 
 /* One number for each variation. */
 typedef double *numbers;
@@ -60,7 +64,7 @@ static size_t lay_out(sensitivity *s, double *memory) {
   used = take(&s->change_rate, memory, used, N_STATE * n);
   used = take(&s->observed, memory, used, N_STATE * n);
   used = take(&s->system.parameter, memory, used, HYPOFAB_N_PARAMETERS * n);
-  used = take(&s->system.scratch, memory, used, 12 * n);
+  used = take(&s->system.scratch, memory, used, 6 * n);
   return take(&s->results, memory, used, HYPOFAB_N_QUANTITIES * n);
 }
 
@@ -122,7 +126,7 @@ long sensitivity_evaluations(const sensitivity *s) { return s ? variational_eval
 /* All that quantities depend on, for variation k, at the present place moved by its moment. */
 static quantity_change change_of(const sensitivity *s, int k) {
   quantity_change c = {.time = s->clock[k] + s->moment[k],
-                       .R = s->system.parameter[11 * s->n + k],
+                       .R = s->system.parameter[R_PLACE * s->n + k],
                        .water = s->system.water[k],
                        .pressure = s->pressure[k],
                        .reference_pressure = s->reference_pressure[k],

@@ -18,7 +18,7 @@ typedef struct variational {
   int n;             /**< variations */
   double *parameter; /**< HYPOFAB_N_PARAMETERS rows of n: derivatives of the parameters */
   double *water;     /**< n: of ln(stiffness of the pore water) */
-  double *scratch;   /**< 12 rows of n */
+  double *scratch;   /**< 6 rows of n */
 } variational;
 
 /**

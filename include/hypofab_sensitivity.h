@@ -138,12 +138,13 @@ hypofab_status hypofab_study_variation(const hypofab_study *study, int test, con
  * @param names      as hypofab_study_variation; derivatives come in this order
  * @param sink, user as hypofab_test_sensitivities; signs of row and derivatives are the deck's
  * @param watch      as hypofab_test_options.watch; NULL when not wanted
+ * @param columns    as hypofab_study_test_run
  * @param outcome    tension positive; NULL when not wanted
  * @return as hypofab_test_sensitivities
  */
 hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int test, int n_names,
                                                 const char *const *names, hypofab_sensitivity_sink sink,
                                                 int (*watch)(int step, double done, void *user), void *user,
-                                                hypofab_test_outcome *outcome);
+                                                int *columns, hypofab_test_outcome *outcome);
 
 #endif

@@ -85,6 +85,8 @@ void core_study_unit(long long handle, char *text, size_t size);
 int core_study_test_state(long long handle, int index);
 int core_study_state(long long handle, int index, double *material, double *state);
 int core_study_test_run(long long handle, int index, int *stop, long long *rows, long long *report);
+void core_study_sensitivity_name(long long handle, int test, int index, char *text, size_t size);
+void core_derivatives_take(long long rows, int numbers, int quantities, int n, double *values);
 void core_rows_take(long long rows, int n, int width, double *values);
 void core_rows_free(long long rows);
 int core_study_stiffness(long long handle, const long long *options, double level, int *stop, int n, double *results);

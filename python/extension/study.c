@@ -10,9 +10,10 @@
 
 /* Rows of a test while it runs and until Python has taken them. */
 typedef struct collected {
-  double *values;
+  double *values,
+      *derivatives; /* derivatives: of each number in turn HYPOFAB_N_QUANTITIES; NULL without sensitivities */
   size_t rows, capacity;
-  int quantities;
+  int quantities, numbers;
   volatile const int *stop;
   int no_memory;
 } collected;
@@ -69,25 +70,37 @@ int core_study_state(long long handle, int index, double *material, double *stat
   return status;
 }
 
+/* Room for one more row; 0 when memory is short. */
+static int has_room(collected *all) {
+  const size_t width = HYPOFAB_N_QUANTITIES + MORE_COLUMNS, derivatives = (size_t)all->numbers * HYPOFAB_N_QUANTITIES;
+  if (all->rows < all->capacity) return 1;
+  const size_t capacity = all->capacity ? 2 * all->capacity : 256;
+  double *values = realloc(all->values, capacity * width * sizeof *values);
+  if (values) all->values = values;
+  double *more = derivatives > 0 ? realloc(all->derivatives, capacity * derivatives * sizeof *more) : NULL;
+  if (more) all->derivatives = more;
+  all->no_memory = !values || (derivatives > 0 && !more);
+  if (!all->no_memory) all->capacity = capacity;
+  return !all->no_memory;
+}
+
 /* In the order of a row until the test is done, which tells how many of the columns are wanted. */
 static int collect(const hypofab_row *row, void *user) {
   collected *all = user;
-  const size_t width = HYPOFAB_N_QUANTITIES + MORE_COLUMNS;
-  if (all->rows == all->capacity) {
-    const size_t capacity = all->capacity ? 2 * all->capacity : 256;
-    double *larger = realloc(all->values, capacity * width * sizeof *larger);
-    if (!larger) {
-      all->no_memory = 1;
-      return 1;
-    }
-    all->values = larger;
-    all->capacity = capacity;
-  }
-  double *values = all->values + width * all->rows++;
+  if (!has_room(all)) return 1;
+  double *values = all->values + (HYPOFAB_N_QUANTITIES + MORE_COLUMNS) * all->rows++;
   memcpy(values, row->value, sizeof row->value);
   values[HYPOFAB_N_QUANTITIES] = row->step + 1;
   values[HYPOFAB_N_QUANTITIES + 1] = row->event;
   return *all->stop;
+}
+
+static int collect_derivatives(const hypofab_row *row, const double *derivative, void *user) {
+  collected *all = user;
+  const size_t width = (size_t)all->numbers * HYPOFAB_N_QUANTITIES;
+  if (!has_room(all)) return 1;
+  memcpy(all->derivatives + width * all->rows, derivative, width * sizeof *derivative);
+  return collect(row, all);
 }
 
 static int watch(int step, double done, void *user) {
@@ -102,8 +115,12 @@ int core_study_test_run(long long handle, int index, int *stop, long long *rows,
   if (!all) return HYPOFAB_NO_MEMORY;
   all->stop = stop;
   hypofab_test_outcome outcome = {0};
+  const hypofab_study *study = study_of(handle);
+  while (hypofab_study_sensitivity_name(study, index, all->numbers)) all->numbers++;
   const hypofab_status status =
-      hypofab_study_test_run(study_of(handle), index, collect, watch, all, &all->quantities, &outcome);
+      all->numbers > 0 ? hypofab_study_test_sensitivities(study, index, 0, NULL, collect_derivatives, watch, all,
+                                                          &all->quantities, &outcome)
+                       : hypofab_study_test_run(study, index, collect, watch, all, &all->quantities, &outcome);
   if (all->no_memory || status >= HYPOFAB_BAD_MATERIAL) {
     const int no_memory = all->no_memory;
     core_rows_free((long long)(intptr_t)all);
@@ -115,7 +132,12 @@ int core_study_test_run(long long handle, int index, int *stop, long long *rows,
   report[2] = outcome.step;
   report[3] = outcome.integrator_steps;
   report[4] = outcome.evaluations;
+  report[5] = all->numbers;
   return status;
+}
+
+void core_study_sensitivity_name(long long handle, int test, int index, char *text, size_t size) {
+  core_text(hypofab_study_sensitivity_name(study_of(handle), test, index), text, size);
 }
 
 void core_rows_take(long long rows, int n, int width, double *values) {
@@ -129,9 +151,18 @@ void core_rows_take(long long rows, int n, int width, double *values) {
   }
 }
 
+void core_derivatives_take(long long rows, int numbers, int quantities, int n, double *values) {
+  const collected *all = (const collected *)(intptr_t)rows;
+  for (size_t k = 0; k < (size_t)numbers; ++k)
+    for (size_t j = 0; j < (size_t)quantities; ++j)
+      for (size_t i = 0; i < (size_t)n; ++i)
+        *values++ = all->derivatives[(i * (size_t)numbers + k) * HYPOFAB_N_QUANTITIES + j];
+}
+
 void core_rows_free(long long rows) {
   collected *all = (collected *)(intptr_t)rows;
   if (all) free(all->values);
+  if (all) free(all->derivatives);
   free(all);
 }
 

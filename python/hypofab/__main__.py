@@ -18,6 +18,7 @@ from hypofab import (
     papers,
     path_figures,
     probe_surfaces,
+    sensitivity_figures,
     stability_figures,
     stiffness,
     sweep_command,
@@ -71,6 +72,9 @@ def plot(directory: Path, options: argparse.Namespace) -> None:
         tests = [test for test in stability_figures.read_stability(directory) if len(test.eps_q) > 2]
         if tests:
             save(stability_figures.figure(tests), directory / "stability")
+        for varied in sensitivity_figures.read_sensitivities(directory):
+            if varied.drawable():
+                save(sensitivity_figures.curves(varied), directory / f"{varied.name}_sensitivities")
     probes = {envelope.file: envelope for envelope in read_probes(directory)} if has_probes(directory) else {}
     for path in envelopes:
         stem = path.with_suffix("")

@@ -8,7 +8,7 @@ import json
 import os
 import weakref
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -86,6 +86,8 @@ class Test:
     """relative tolerance of the integrator"""
     stability: bool = False
     """rows with the measures of stability too"""
+    sensitivities: Sequence[str] = ()
+    """numbers to differentiate the results with respect to: parameters, "void_ratio", "p", "sig_xx", ..."""
 
     __test__ = False  # not one of pytest's
 
@@ -108,6 +110,8 @@ class TestResult:
     sign: int
     """1: tension is positive, -1: compression is"""
     material: Material
+    sensitivities: Mapping[str, Mapping[str, NDArray[np.float64]]] = field(default_factory=dict)
+    """derivatives of the rows: sensitivities["h_s"]["q"] is dq/dh_s; empty unless the test asks for them"""
 
     __test__ = False
 
@@ -242,11 +246,12 @@ class Study:
     def _run(self, index: int, stop: NDArray[np.intc]) -> TestResult:
         status, rows, report = core.study_test_run(self._handle, index, stop)
         message = last_message() if status else ""
-        count, width, step, integrator_steps, evaluations = map(int, report)
+        count, width, step, integrator_steps, evaluations, varied = map(int, report)
         if status >= Status.BAD_MATERIAL:
             check(status)
         try:
             numbers = core.rows_take(int(rows[0]), count, width)
+            derivatives = self._derivatives(index, int(rows[0]), varied, count, width) if varied else {}
         finally:
             core.rows_free(int(rows[0]))
         return TestResult(
@@ -259,8 +264,20 @@ class Study:
             evaluations=evaluations,
             unit=self.unit,
             sign=self.sign,
+            sensitivities=derivatives,
             material=self.state(self.states[core.study_test_state(self._handle, index)])[0],
         )
+
+    def _derivatives(
+        self, index: int, rows: int, varied: int, count: int, width: int
+    ) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """By the number varied, then by quantity; those of stability, from work2 on, have none."""
+        quantities = [name for name in _columns(width) if name not in ("step", "event")]
+        if "work2" in quantities:
+            quantities = quantities[: quantities.index("work2")]
+        values = core.derivatives_take(rows, varied, len(quantities), count)
+        names = (text(core.study_sensitivity_name(self._handle, index, k)) for k in range(varied))
+        return {name: dict(zip(quantities, of_all, strict=True)) for name, of_all in zip(names, values, strict=True)}
 
 
 def run(
@@ -279,6 +296,7 @@ def element_test(
     integrator: str | None = None,
     tolerance: float | None = None,
     stability: bool = False,
+    sensitivities: Sequence[str] = (),
 ) -> TestResult:
     """Run one element test; arguments as in Test."""
     several = [steps] if isinstance(steps, Step | Mapping) else steps
@@ -290,6 +308,7 @@ def element_test(
         integrator=integrator,
         tolerance=tolerance,
         stability=stability,
+        sensitivities=sensitivities,
     )
     return Study(test).run_test(test.name)
 
@@ -305,6 +324,7 @@ def deck_of(tests: Iterable[Test]) -> dict[str, Any]:
         delta = {"components": test.state.delta} if test.state.delta.any() else {"zero": True}
         state = {"name": place, "material": place, "stress": test.state.stress, "void_ratio": test.state.void_ratio}
         options = {"integrator": test.integrator, "tolerance": test.tolerance, "stability": test.stability or None}
+        options["sensitivities"] = list(test.sensitivities) or None
         deck["materials"].append(material)
         deck["states"].append(state | {"delta": delta})
         deck["tests"].append(

@@ -10,7 +10,18 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from hypofab import cycles, fabric_figures, figures, path_figures, probe_figures, probe_surfaces, probes, results, vtp
+from hypofab import (
+    cycles,
+    fabric_figures,
+    figures,
+    path_figures,
+    probe_figures,
+    probe_surfaces,
+    probes,
+    results,
+    sensitivity_figures,
+    vtp,
+)
 from hypofab.decks import TestResult
 from hypofab.errors import InputError, Status
 from hypofab.fabric_changes import Directions
@@ -41,8 +52,9 @@ def plot(
 ) -> Figure:
     """One figure of one or several element tests; a mapping gives the labels.
 
-    kind: one of KINDS, or "accumulation": a quantity at the ends of cycles (options quantity, default "eps_acc", and
-    log). measured: data to draw over, label -> columns by their names in results (also eps_1, e), or label -> CSV file.
+    kind: one of KINDS; "accumulation": a quantity at the ends of cycles (options quantity, default "eps_acc", and log);
+    "sensitivities" of one test: its curve with each number changed (options x, y, change, numbers).
+    measured: data to draw over, label -> columns by their names in results (also eps_1, e), or label -> CSV file.
     options: those of the figure's function in hypofab.figures or hypofab.path_figures, as zoom=1e-3.
     """
     if isinstance(tests, Mapping):
@@ -53,8 +65,13 @@ def plot(
         raise InputError("no test to draw, expected at least one", Status.BAD_ARGUMENT)
     if kind == "accumulation":
         return _accumulation(several, **options)
+    if kind == "sensitivities":
+        return _sensitivities(several, **options)
     if kind not in KINDS:
-        raise InputError(f"kind = '{kind}', expected one of {', '.join([*KINDS, 'accumulation'])}", Status.BAD_ARGUMENT)
+        raise InputError(
+            f"kind = '{kind}', expected one of {', '.join([*KINDS, 'accumulation', 'sensitivities'])}",
+            Status.BAD_ARGUMENT,
+        )
     return KINDS[kind](_run(several), measured=_data(measured or {}), **options)
 
 
@@ -152,6 +169,16 @@ def _accumulation(tests: list[tuple[str, TestResult]], *, quantity: str = "eps_a
     if not cyclic:
         raise InputError("no test with cycles among these", Status.BAD_ARGUMENT)
     return cycles.figure(cyclic, quantity, logarithmic=log)
+
+
+def _sensitivities(tests: list[tuple[str, TestResult]], **options: Any) -> Figure:  # noqa: ANN401 - of the figure
+    (label, test), *others = tests
+    if others or not test.sensitivities:
+        raise InputError("expected one test that was run with sensitivities", Status.BAD_ARGUMENT)
+    columns = {name: test.rows[name] for name in next(iter(test.sensitivities.values()))}
+    known = {name: float(values[0]) for name, values in columns.items()} | test.material.parameters()
+    found = sensitivity_figures.Sensitivities(label, columns, test.sensitivities, known, test.unit)
+    return sensitivity_figures.curves(found, **options)
 
 
 def _space(probe: Probes) -> tuple[str, Array]:

@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
     ("page", "blocks", "printed"),
     [
         ("python.md", 5, "OUT_OF_DOMAIN a principal stress became tensile"),
+        ("sensitivities.md", 1, "[ 0. "),
         ("sweeps.md", 3, "(40, 21) {}"),
     ],
 )
