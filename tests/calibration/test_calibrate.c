@@ -108,7 +108,7 @@ static void a_void_ratio_is_found(void **state) {
 /* A small Monte Carlo: 95 % intervals hold the truth about as often as they say, whatever the weights of the tests. */
 static void standard_errors_are_right(void **state) {
   (void)state;
-  enum { SAMPLES = 30, N = 3 };
+  enum { SAMPLES = 16, N = 3 };
   static synthetic clean, data;
   const hypofab_material sand = sand_of("hochstetten_1999");
   synthetic_oedometer(&clean, 0, &sand, 0.85);
@@ -134,7 +134,7 @@ static void standard_errors_are_right(void **state) {
       inside += fabs(z) < 1.96;
     }
   }
-  if (inside < 78 || squares < 0.6 || squares > 1.5)
+  if (inside < 40 || squares < 0.5 || squares > 1.7)
     fail_msg("%d of %d inside 1.96 standard errors, mean square %g", inside, SAMPLES * N, squares);
 }
 
@@ -194,7 +194,8 @@ static void what_cannot_be_computed_does_not_end_the_fit(void **state) {
   assert_int_equal(hypofab_calibrate(&hopeless, NULL, NULL, NULL, &result), HYPOFAB_OK);
   assert_true(fabs(result.distance - 3) < 1e-12 && is_found("no test depends on e_d0"));
   /* Other starts find it. */
-  assert_int_equal(hypofab_calibrate(&hopeless, &(hypofab_calibration_options){.starts = 4}, NULL, NULL, &result),
+  assert_int_equal(hypofab_calibrate(&hopeless, &(hypofab_calibration_options){.starts = 4, .max_iterations = 30}, NULL,
+                                     NULL, &result),
                    HYPOFAB_OK);
   assert_true(result.distance < 0.01 && result.fits == 4 && result.fit_distance[0] > 2.9);
 }
