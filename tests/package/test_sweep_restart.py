@@ -14,14 +14,14 @@ from sweep_models import deck, product, slow
 import hypofab
 
 INPUTS = {"x": {"uniform": [0, 1]}}
-DESIGN = {"kind": "sobol", "runs": 240}
+DESIGN = {"kind": "sobol", "runs": 600}
 SCRIPT = """
 import sys
 import hypofab
 from sweep_models import slow
 
 if __name__ == "__main__":
-    hypofab.sweep(slow, {"x": {"uniform": [0, 1]}}, {"kind": "sobol", "runs": 240}, ["y"], into=sys.argv[1], workers=2)
+    hypofab.sweep(slow, {"x": {"uniform": [0, 1]}}, {"kind": "sobol", "runs": 600}, ["y"], into=sys.argv[1], workers=2)
 """
 
 
@@ -60,10 +60,10 @@ def test_a_killed_sweep_goes_on_and_loses_nothing(tmp_path: Path) -> None:
     os.kill(process.pid, signal.SIGKILL)
     process.communicate()
     before = hypofab.read_sweep(folder)
-    assert 0 < len(before) < 240
+    assert 0 < len(before) < 600
     (folder / "rows" / "part-000099.parquet.tmp").write_bytes(b"half of a file")
-    result = hypofab.sweep(slow, INPUTS, DESIGN, ["y"], into=folder, workers=2)
-    assert np.array_equal(result["run"], np.arange(240))
+    result = hypofab.sweep(slow, INPUTS, DESIGN, ["y"], into=folder, workers=8)  # they sleep, mostly
+    assert np.array_equal(result["run"], np.arange(600))
     assert np.array_equal(result["y"], result["x"] ** 2)
     # What was written was not run again.
     assert np.array_equal(result["seconds"][before["run"]], before["seconds"])
