@@ -1,8 +1,8 @@
 !> Cost of one rate, and of one UMAT call over increments of several sizes, in ns and in rates.
 !>
 !> Random states of three sands: stress up to a mobilised friction near the critical one, delta zero, partial or fully
-!> mobilised, random directions of strain. Medians over the states. Also the error of the stress, against the same update
-!> at a tight tolerance.
+!> mobilised, random directions of strain. Medians over the states. Also the errors of stress and tangent, against the same
+!> update at a tight tolerance.
 program bench_model
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use bench_statistics, only: median, quantile
@@ -30,8 +30,8 @@ program bench_model
   write (*, '(a, f0.1, a)') 'one rate: ', rate_cost, ' ns'
   do j = 1, size(tolerances)
     write (*, '(/, a, es8.1)') 'tolerance ', tolerances(j)
-    write (*, '(a)') '               stress only                     with tangent                    stress error (relative)'
-    write (*, '(a)') '|strain|  median ns  in rates  evaluations  median ns  in rates  evaluations     median   99 %     worst   failed'
+    write (*, '(a)') '               stress only                     with tangent                    stress error (relative)          tangent error (relative)'
+    write (*, '(a)') '|strain|  median ns  in rates  evaluations  median ns  in rates  evaluations     median   99 %     worst     median   99 %     worst   failed'
     do i = 1, n_sizes
       call time_updates(sizes(i), tolerances(j))
     end do
@@ -99,14 +99,16 @@ contains
   !> One line: increments of a length at a tolerance.
   subroutine time_updates(length, tolerance)
     real(wp), intent(in) :: length, tolerance
-    real(wp) :: time(n_states, 2), evaluations(2), error(n_states), tangent(6, 6)
+    real(wp) :: time(n_states, 2), evaluations(2), error(n_states), tangent_error(n_states), tangent(6, 6), exact_tangent(6, 6)
     type(state_type) :: state, exact
     type(report_type) :: report
     type(options_type) :: options
+    type(options_type), parameter :: tight = options_type(tolerance=1.0e-11_wp)
     integer(int64) :: start, finish, ticks
     integer :: k, j, with_tangent, status, failed
     options%tolerance = tolerance
     error = 0.0_wp
+    tangent_error = 0.0_wp
     evaluations = 0.0_wp
     failed = 0
     time = huge(time)
@@ -124,17 +126,22 @@ contains
           time(k, with_tangent) = min(time(k, with_tangent), 1.0e9_wp * real(finish - start, wp) / real(ticks, wp))
         end do
         evaluations(with_tangent) = evaluations(with_tangent) + real(report%evaluations, wp) / n_states
-        if (with_tangent == 1 .and. status == status_ok) then
-          exact = states(k)
-   call update_state(materials(k), options_type(tolerance=1.0e-11_wp), exact, length * directions(:, k), report, status)
+        if (status /= status_ok) cycle
+        exact = states(k)
+        if (with_tangent == 1) then
+          call update_state(materials(k), tight, exact, length * directions(:, k), report, status)
           if (status == status_ok) error(k) = norm(state%stress - exact%stress) / norm(exact%stress)
+        else
+          call update_state(materials(k), tight, exact, length * directions(:, k), report, status, exact_tangent)
+          if (status == status_ok) tangent_error(k) = maxval(abs(tangent - exact_tangent)) / maxval(abs(exact_tangent))
         end if
       end do
       if (status /= status_ok) failed = failed + 1
     end do
- write (*, '(es8.1, 2(f11.0, f10.1, f13.1), 3es11.1, i6)') length, median(time(:, 1)), median(time(:, 1)) / rate_cost, &
+ write (*, '(es8.1, 2(f11.0, f10.1, f13.1), 6es11.1, i6)') length, median(time(:, 1)), median(time(:, 1)) / rate_cost, &
       evaluations(1), median(time(:, 2)), median(time(:, 2)) / rate_cost, evaluations(2), median(error), &
-      quantile(error, 0.99_wp), maxval(error), failed
+      quantile(error, 0.99_wp), maxval(error), median(tangent_error), quantile(tangent_error, 0.99_wp), &
+      maxval(tangent_error), failed
   end subroutine time_updates
 
   !> One line: UMAT calls over increments of a length.

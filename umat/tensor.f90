@@ -122,22 +122,33 @@ contains
     real(wp), intent(in) :: a(6)
     real(wp), intent(out) :: values(3)
     real(wp), intent(out), optional :: axes(3, 3)
-    real(wp) :: m(3, 3), rotation(3, 3), cotangent, t, c
-    integer :: sweep, p, q
+    real(wp) :: m(3, 3), negligible, cotangent, t, c, along_p(3)
+    integer :: sweep, p, q, r
     if (present(axes)) axes = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1] * 1.0_wp, [3, 3])
     m = reshape([a(1), a(4), a(5), a(4), a(2), a(6), a(5), a(6), a(3)], [3, 3])
+    negligible = max(tiny(t), epsilon(t)**2 * maxval(abs(a)))
     do sweep = 1, 10 ! converges quadratically; six sweeps reach rounding for any input
-      if (max(abs(m(1, 2)), abs(m(1, 3)), abs(m(2, 3))) <= tiny(t)) exit
+      if (max(abs(m(1, 2)), abs(m(1, 3)), abs(m(2, 3))) <= negligible) exit
       do p = 1, 2
         do q = p + 1, 3
-          if (abs(m(p, q)) <= epsilon(t)**2 * maxval(abs(m))) cycle
+          if (abs(m(p, q)) <= negligible) cycle
           cotangent = (m(q, q) - m(p, p)) / (2.0_wp * m(p, q))
-          t = sign(1.0_wp, cotangent) / (abs(cotangent) + hypot(1.0_wp, cotangent))
-          c = 1.0_wp / hypot(1.0_wp, t)
-          rotation = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1] * 1.0_wp, [3, 3])
-          rotation([p, q], [p, q]) = reshape([c, -t * c, t * c, c], [2, 2])
-          m = matmul(transpose(rotation), matmul(m, rotation))
-          if (present(axes)) axes = matmul(axes, rotation)
+          t = sign(1.0_wp, cotangent) / (abs(cotangent) + sqrt(1.0_wp + cotangent**2))
+          c = 1.0_wp / sqrt(1.0_wp + t**2)
+          m(p, p) = m(p, p) - t * m(p, q)
+          m(q, q) = m(q, q) + t * m(p, q)
+          m(p, q) = 0.0_wp
+          r = 6 - p - q ! the axis that stays; the upper triangle is kept
+          associate (pr => m(min(p, r), max(p, r)), qr => m(min(q, r), max(q, r)))
+            along_p(1) = pr
+            pr = c * (pr - t * qr)
+            qr = c * (t * along_p(1) + qr)
+          end associate
+          if (present(axes)) then
+            along_p = axes(:, p)
+            axes(:, p) = c * (along_p - t * axes(:, q))
+            axes(:, q) = c * (t * along_p + axes(:, q))
+          end if
         end do
       end do
     end do
