@@ -118,8 +118,8 @@ def shares(one: Test, tests: dict[str, Test], path: Path) -> None:
         friction.legend(fontsize=7)
         for index, key in enumerate(("a_n", "a_f", "a_t")):
             indices.plot(strain, one.micro[key], label=f"${key}$", marker="o", markersize=3, **line_style(index))
-        indices.set(title=f"{one.sample.name}: anisotropies", xlabel="axial strain [%]", ylim=(0, None))
-        indices.legend()
+        indices.set(title=f"{one.sample.name}: anisotropies", xlabel="axial strain [%]", ylim=(0, 0.8))
+        indices.legend(loc="upper right", ncols=3)
         for test in tests.values():
             loaded = test.strain > 1e-3
             all_sin.plot(
