@@ -7,7 +7,7 @@ module HYPOFAB_BATCH_BEGIN
   use umat_batch_lanes
   use umat_material, only: material_type
   use umat_delta_path, only: axis_power
-  use umat_integration, only: options_type, vanishing, first_step
+  use umat_integration, only: options_type, vanishing, first_step, first_from_zero
   implicit none
   private
   public :: begin_increment, begin_segment
@@ -96,7 +96,7 @@ contains
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     real(wp) :: begins, straight, plane, axis, unfit !< 1 for yes, 0 for no: the vectoriser has no use for logicals
     real(wp) :: R, beta_r, inverse_R, inverse_beta, u, v, d1, d2, d3, d4, d5, d6, square, ahead, rho_square, log_rho, rho_beta
-  real(wp) :: inverse_v, ratio, x, kappa, power, speed, wanted, scale, whole, inverse, chi, decay, left, slope, h, guess, first
+  real(wp) :: inverse_v, ratio, x, kappa, power, speed, wanted, scale, whole, inverse, chi, decay, left, slope, h, guess, first, from_zero
     integer(int64) :: kind
     integer :: i
 
@@ -126,6 +126,7 @@ contains
     end if
     R = m%R
     first = first_step(options, with_tangent=.false.) * R
+    from_zero = first_from_zero(options) * R
     chi = m%chi
     beta_r = m%beta_r
     !GCC$ ivdep
@@ -180,6 +181,7 @@ contains
       lanes(i, l_rho_chi) = chosen(begins, exp(chi * log_rho), lanes(i, l_rho_chi))
       ! first_guess of delta_path.f90.
       wanted = min(first, lanes(i, l_length))
+      wanted = merge(wanted, min(wanted, from_zero), max(x, half - axis) > 0.0_wp)
       slope = speed * chosen(plane, left * lanes(i, l_node_along), (axis_power - 1) * decay / max(1.0_wp - decay, 1.0e-100_wp))
       h = 2.0_wp * wanted / max(speed + sqrt(speed**2 + 2.0_wp * slope * wanted), 1.0e-100_wp)
       guess = log(max(decay, negligible) / max(negligible, 1.0_wp - sqrt(sqrt(min(0.9_wp, max(ahead, 0.0_wp) + wanted * inverse_R)))))

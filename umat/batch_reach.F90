@@ -7,14 +7,16 @@ module HYPOFAB_BATCH_REACH
   use HYPOFAB_BATCH_PATH, only: node_type, path_node
   use umat_batch_lanes
   use umat_integration, only: nearly
-  use umat_lobatto, only: rules, most_nodes
+  use umat_lobatto, only: lobatto_type, rules, rule_long, most_nodes
   use umat_material, only: material_type
-  use umat_step, only: least_share, close_enough, most_trials, most_interpolations
+  use umat_step, only: least_share, close_enough, most_trials, most_iterations, slowest, inner_square
   implicit none
   private
   public :: nodes_type, reach
 
   integer, parameter :: wp = real64
+  type(lobatto_type), parameter :: rule = rules(rule_long)
+  integer, parameter :: last_node = rule%n
   !> Stands for no length in a divisor [strain].
   real(wp), parameter :: vanishing_length = 1.0e-40_wp
 
@@ -31,21 +33,19 @@ module HYPOFAB_BATCH_REACH
 contains
 
   !> Place the nodes of a step that ends where the leg ends if it reaches so far.
-  !> @param rule  the rule of all lanes of the block
   !> @param b     lanes b + 1 to b + width
   !> @param lanes in: step wanted; out: step
   !> @param bad   set to 1 where no step is found
-  pure subroutine reach(m, tolerance, rule, b, lanes, tags, nodes, bad)
+  pure subroutine reach(m, tolerance, b, lanes, tags, nodes, bad)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(inout) :: lanes(n_lanes, n_fields), bad(width)
     integer(int64), intent(in) :: tags(n_lanes, n_tags)
     type(nodes_type), intent(inout) :: nodes
     real(wp) :: open_(width), place(width), ahead, covered, close_by, ends
-    integer :: i, n, trial
+    integer :: i, trial
 
-    n = rules(rule)%n
     close_by = close_enough * sqrt(least_share * tolerance)
     !GCC$ ivdep
     do i = 1, width
@@ -58,24 +58,19 @@ contains
     end do
     call start_node(b, lanes, nodes)
     do trial = 1, most_trials
-      call place_nodes(m, rule, b, lanes, tags, nodes)
+      call place_nodes(m, b, lanes, tags, nodes)
       if (.not. any(open_ > half)) exit
       !GCC$ ivdep
       do i = 1, width
         ahead = lanes(b + i, l_length) - lanes(b + i, l_done)
-        covered = nodes%length(i, n)
+        covered = nodes%length(i, last_node)
         nodes%last(i) = max(nodes%last(i), open_(i) * merge(1.0_wp, 0.0_wp, covered > ahead))
         ends = open_(i) * nodes%last(i) * merge(1.0_wp, 0.0_wp, abs(ahead - covered) <= close_by * ahead)
-       nodes%end(i) = chosen(ends, 1.0_wp + (ahead - covered) / max(nodes%strain(i, n), vanishing_length), nodes%end(i))
+       nodes%end(i) = chosen(ends, 1.0_wp + (ahead - covered) / max(nodes%strain(i, last_node), vanishing_length), nodes%end(i))
         open_(i) = open_(i) * nodes%last(i) - ends
       end do
       if (.not. any(open_ > half)) exit
-      if (trial <= most_interpolations) then
-        call place_of(rule, b, lanes, nodes, place)
-      else
-        place = max(0.1_wp, min(2.0_wp, 1.0_wp + (lanes(b + 1:b + width, l_length) - lanes(b + 1:b + width, l_done) - &
-                                                  nodes%length(:, n)) / max(nodes%strain(:, n), vanishing_length)))
-      end if
+      call place_of(b, lanes, nodes, place)
       lanes(b + 1:b + width, l_h) = chosen(open_, lanes(b + 1:b + width, l_h) * place, lanes(b + 1:b + width, l_h))
     end do
     !GCC$ ivdep
@@ -83,7 +78,7 @@ contains
       bad(i) = max(bad(i), open_(i), merge(1.0_wp, 0.0_wp, tags(b + i, t_kind) > kind_straight .and. &
                                            lanes(b + i, l_x) + lanes(b + i, l_h) > largest_x))
     end do
-    call operands(m, rule, b, lanes, tags, nodes)
+    call operands(m, b, lanes, tags, nodes)
   end subroutine reach
 
   !> Node 0: the start.
@@ -99,18 +94,17 @@ contains
   end subroutine start_node
 
   !> The path at the nodes of the step, and the lengths of strain up to them.
-  pure subroutine place_nodes(m, rule, b, lanes, tags, nodes)
+  pure subroutine place_nodes(m, b, lanes, tags, nodes)
     type(material_type), intent(in) :: m
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(in) :: lanes(n_lanes, n_fields)
     integer(int64), intent(in) :: tags(n_lanes, n_tags)
     type(nodes_type), intent(inout) :: nodes
     real(wp) :: place(width)
-    integer :: k, j, n
-    n = rules(rule)%n
+    integer :: k, j
     nodes%strain(:, 0) = lanes(b + 1:b + width, l_h) * nodes%point(0)%speed
-    do k = 1, n
-      place = rules(rule)%c(k)
+    do k = 1, last_node
+      place = rule%c(k)
       if (m%intergranular) then
         call path_node(m, b, lanes, tags, place, nodes%point(k))
       else
@@ -118,49 +112,50 @@ contains
       end if
       nodes%strain(:, k) = lanes(b + 1:b + width, l_h) * nodes%point(k)%speed
     end do
-    do k = 1, n
-      nodes%length(:, k) = rules(rule)%a(0, k) * nodes%strain(:, 0)
-      do j = 1, n
-        nodes%length(:, k) = nodes%length(:, k) + rules(rule)%a(j, k) * nodes%strain(:, j)
+    do k = 1, last_node
+      nodes%length(:, k) = rule%a(0, k) * nodes%strain(:, 0)
+      do j = 1, last_node
+        nodes%length(:, k) = nodes%length(:, k) + rule%a(j, k) * nodes%strain(:, j)
       end do
     end do
   end subroutine place_nodes
 
-  !> Where in the step the leg ends: inverse interpolation between the nodes, by Neville's scheme.
-  pure subroutine place_of(rule, b, lanes, nodes, place)
-    integer, intent(in) :: rule, b
+  !> Where in the step the leg ends; place_of in step.f90.
+  pure subroutine place_of(b, lanes, nodes, place)
+    integer, intent(in) :: b
     real(wp), intent(in) :: lanes(n_lanes, n_fields)
     type(nodes_type), intent(in) :: nodes
     real(wp), intent(out) :: place(width)
-    real(wp) :: table(width, 0:most_nodes), ahead, apart
-    integer :: n, i, k, order
-    n = rules(rule)%n
-    do k = 0, n
-      table(:, k) = rules(rule)%c(k)
-    end do
-    do order = 1, n
-      do k = 0, n - order
-        !GCC$ ivdep
-        do i = 1, width
-          ahead = lanes(b + i, l_length) - lanes(b + i, l_done)
-          apart = min(nodes%length(i, k) - nodes%length(i, k + order), -vanishing_length)
-          table(i, k) = ((ahead - nodes%length(i, k + order)) * table(i, k) - &
-                         (ahead - nodes%length(i, k)) * table(i, k + 1)) / apart
-        end do
-      end do
-    end do
+    real(wp) :: ahead, middle, even1, even2, odd1, odd2, before, covered, speed, t
+    integer :: i, round
     !GCC$ ivdep
     do i = 1, width
       ahead = lanes(b + i, l_length) - lanes(b + i, l_done)
-      apart = max(0.1_wp, min(2.0_wp, ahead / max(nodes%length(i, n), vanishing_length)))
-      place(i) = merge(table(i, 0), apart, min(table(i, 0) - 0.1_wp, 2.0_wp - table(i, 0)) > 0.0_wp)
+      middle = nodes%strain(i, 2)
+      even1 = 0.5_wp * (nodes%strain(i, 4) + nodes%strain(i, 0)) - middle
+      odd1 = 0.5_wp * (nodes%strain(i, 4) - nodes%strain(i, 0))
+      even2 = (inner_square * even1 - 0.5_wp * (nodes%strain(i, 3) + nodes%strain(i, 1)) + middle) * &
+              (1.0_wp / (inner_square * (1.0_wp - inner_square)))
+      odd2 = (odd1 - (nodes%strain(i, 3) - nodes%strain(i, 1)) * (0.5_wp / sqrt(inner_square))) * (1.0_wp / (1.0_wp - inner_square))
+      even1 = even1 - even2
+      odd1 = odd1 - odd2
+      before = middle - odd1 * (1.0_wp / 2) + even1 * (1.0_wp / 3) - odd2 * (1.0_wp / 4) + even2 * (1.0_wp / 5)
+      t = 1.0_wp
+      !GCC$ unroll 8
+      do round = 1, most_iterations
+        speed = middle + t * (odd1 + t * (even1 + t * (odd2 + t * even2)))
+        covered = before + t * (middle + t * (odd1 * (1.0_wp / 2) + t * (even1 * (1.0_wp / 3) + t * (odd2 * (1.0_wp / 4) + t * even2 * (1.0_wp / 5)))))
+        t = t + (2.0_wp * ahead - covered) / max(speed, slowest * nodes%strain(i, 4), vanishing_length)
+        t = max(-0.8_wp, min(3.0_wp, t))
+      end do
+      place(i) = 0.5_wp * (1.0_wp + t)
     end do
   end subroutine place_of
 
   !> X and weight of theory.md Eq. (13) at the nodes, times strain per unit of the step; operands in intergranular.f90.
-  pure subroutine operands(m, rule, b, lanes, tags, nodes)
+  pure subroutine operands(m, b, lanes, tags, nodes)
     type(material_type), intent(in) :: m
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(in) :: lanes(n_lanes, n_fields)
     integer(int64), intent(in) :: tags(n_lanes, n_tags)
     type(nodes_type), intent(inout) :: nodes
@@ -169,7 +164,7 @@ contains
     m_T = m%m_T
     m_R = m%m_R
     if (.not. m%intergranular) then
-      do k = 0, rules(rule)%n
+      do k = 0, last_node
         nodes%weight(:, k) = nodes%strain(:, k)
         do comp = 1, 6
           nodes%x(:, comp, k) = nodes%strain(:, k) * lanes(b + 1:b + width, l_along - 1 + comp)
@@ -177,7 +172,7 @@ contains
       end do
       return
     end if
-    do k = 0, rules(rule)%n
+    do k = 0, last_node
       !GCC$ ivdep
       do i = 1, width
         straight = merge(1.0_wp, 0.0_wp, tags(b + i, t_kind) == kind_straight)

@@ -9,12 +9,12 @@ module HYPOFAB_BATCH_STEP
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use HYPOFAB_BATCH_ERRORS, only: missing_of, growth_after, size_of
   use HYPOFAB_BATCH_LINEAR, only: slopes_type, slopes_at, add_linear
-  use HYPOFAB_BATCH_PATH, only: node_type, path_node, carry_node
+  use HYPOFAB_BATCH_PATH, only: node_type, carry_node
   use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
   use HYPOFAB_BATCH_REACH, only: nodes_type, reach
   use umat_batch_lanes
   use umat_border, only: reach_of_border
-  use umat_lobatto, only: rules, most_nodes, rule_short, rule_long
+  use umat_lobatto, only: lobatto_type, rules, most_nodes, rule_long
   use umat_material, only: material_type
   use umat_step, only: least_share, most_share, most_sweeps, rounding, worth_trying, too_many_sweeps, part_of_pressure
   implicit none
@@ -22,6 +22,8 @@ module HYPOFAB_BATCH_STEP
   public :: attempt_step
 
   integer, parameter :: wp = real64
+  type(lobatto_type), parameter :: rule = rules(rule_long)
+  integer, parameter :: last_node = rule%n
 
   !> A step in work: rates at the nodes per unit of the step and the change of stress there.
   type :: work_type
@@ -38,28 +40,27 @@ contains
 
   !> One step of every lane that is going: choose its size so that it ends with the segment or as the error control wants,
   !> do it, accept or refuse it.
-  !> @param rule      the rule of all lanes here
   !> @param first, n  lanes first + 1 to first + n, multiples of width
   !> @param tolerance relative error, as in options_type
   !> @param lanes     outcome_going lanes are stepped; outcome says what became of them
-  pure subroutine attempt_step(m, tolerance, rule, first, n, lanes, tags)
+  pure subroutine attempt_step(m, tolerance, first, n, lanes, tags)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
-    integer, intent(in) :: rule, first, n
+    integer, intent(in) :: first, n
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     integer :: b
     do b = first, first + n - 1, width
-      call attempt_block(m, tolerance, rule, b, lanes, tags)
+      call attempt_block(m, tolerance, b, lanes, tags)
     end do
   end subroutine attempt_step
 
   !> The same for one block of lanes.
   !> @param b lanes b + 1 to b + width
-  pure subroutine attempt_block(m, tolerance, rule, b, lanes, tags)
+  pure subroutine attempt_block(m, tolerance, b, lanes, tags)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     type(nodes_type) :: nodes
@@ -70,7 +71,7 @@ contains
     integer :: i
 
     bad = 0.0_wp
-    call reach(m, tolerance, rule, b, lanes, tags, nodes, bad)
+    call reach(m, tolerance, b, lanes, tags, nodes, bad)
     call origin_of_step(m, b, lanes, origin, bad)
     call slopes_at(m, origin, slopes)
     !GCC$ ivdep
@@ -80,22 +81,22 @@ contains
                             2.0_wp * (lanes(b + i, l_stress + 3)**2 + lanes(b + i, l_stress + 4)**2 + &
                                       lanes(b + i, l_stress + 5)**2)))
       w%tolerance(i) = tolerance * (least_share + (most_share - least_share) * &
-                                    min(1.0_wp, nodes%length(i, rules(rule)%n) / max(lanes(b + i, l_length), nothing)))
+                                    min(1.0_wp, nodes%length(i, last_node) / max(lanes(b + i, l_length), nothing)))
     end do
-    call predict(m, rule, b, lanes, origin, slopes, nodes, w)
-    call look(m, rule, b, tags, nodes, w)
+    call predict(m, b, lanes, origin, slopes, nodes, w)
+    call look(m, nodes, w)
     if (any(w%going > half)) then
-      call sweeps(m, rule, b, lanes, origin, slopes, nodes, w, bad)
-      call decide(m, rule, b, lanes, tags, nodes, w, bad)
+      call sweeps(m, b, lanes, origin, slopes, nodes, w, bad)
+      call decide(m, b, lanes, tags, nodes, w, bad)
     else
-      call refuse(rule, b, nodes, w, bad, lanes, tags)
+      call refuse(b, nodes, w, bad, lanes, tags)
     end if
   end subroutine attempt_block
 
   !> Predict the change of stress at the nodes, with the rate linear in stress and void ratio about the start of the step.
-  pure subroutine predict(m, rule, b, lanes, origin, slopes, nodes, w)
+  pure subroutine predict(m, b, lanes, origin, slopes, nodes, w)
     type(material_type), intent(in) :: m
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(in) :: lanes(n_lanes, n_fields)
     type(origin_type), intent(in) :: origin
     type(slopes_type), intent(in) :: slopes
@@ -103,7 +104,7 @@ contains
     type(work_type), intent(inout) :: w
     real(wp) :: swell
     integer :: i, k
-    do k = 0, rules(rule)%n
+    do k = 0, last_node
       call apply(m, origin%h, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k))
       w%f(:, :, k) = w%frozen(:, :, k)
       !GCC$ ivdep
@@ -114,57 +115,49 @@ contains
                                                                             1.0_wp / 24 + swell * (1.0_wp / 120)))))
       end do
     end do
-    call integrate_to_nodes(rule, w)
-    do k = 1, rules(rule)%n
+    call integrate_to_nodes(w)
+    do k = 1, last_node
       call add_linear(m, origin, slopes, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k), w%u(:, :, k), &
                       w%d_void_ratio(:, k), w%f(:, :, k))
     end do
-    call integrate_to_nodes(rule, w)
+    call integrate_to_nodes(w)
   end subroutine predict
 
   !> Integrals from the start of the step to its nodes.
-  pure subroutine integrate_to_nodes(rule, w)
-    integer, intent(in) :: rule
+  pure subroutine integrate_to_nodes(w)
     type(work_type), intent(inout) :: w
     integer :: j, comp
     w%u(:, :, 0) = 0.0_wp
-    do j = 1, rules(rule)%n
+    do j = 1, last_node
       do comp = 1, 6
-        w%u(:, comp, j) = rules(rule)%a(0, j) * w%f(:, comp, 0) + rules(rule)%a(1, j) * w%f(:, comp, 1) + &
-                          rules(rule)%a(2, j) * w%f(:, comp, 2)
-        if (rule == rule_long) w%u(:, comp, j) = w%u(:, comp, j) + rules(rule)%a(3, j) * w%f(:, comp, 3) + &
-                                                 rules(rule)%a(4, j) * w%f(:, comp, 4)
+  w%u(:, comp, j) = rule%a(0, j) * w%f(:, comp, 0) + rule%a(1, j) * w%f(:, comp, 1) + rule%a(2, j) * w%f(:, comp, 2) + &
+                          rule%a(3, j) * w%f(:, comp, 3) + rule%a(4, j) * w%f(:, comp, 4)
       end do
     end do
   end subroutine integrate_to_nodes
 
   !> A first look at the prediction, which costs no evaluation of the rate: lanes that are not worth a sweep are stopped.
-  pure subroutine look(m, rule, b, tags, nodes, w)
+  pure subroutine look(m, nodes, w)
     type(material_type), intent(in) :: m
-    integer, intent(in) :: rule, b
-    integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     type(nodes_type), intent(in) :: nodes
     type(work_type), intent(inout) :: w
-    real(wp) :: theta(width), missing(width), too_short
+    real(wp) :: theta(width), missing(width)
     integer :: i, n
-    n = rules(rule)%n
+    n = last_node
     theta = size_of(w%u(:, :, n)) / w%scale
-    missing = missing_of(m, rule, nodes, w%f, theta, w%scale)
-    call growth_after(w%tolerance, rule, missing, theta, w%going, w%growth)
+    missing = missing_of(m, nodes, w%f, theta, w%scale)
+    call growth_after(w%tolerance, missing, theta, w%going, w%growth)
     !GCC$ ivdep
     do i = 1, width
-      too_short = merge(1.0_wp, 0.0_wp, rule == rule_short .and. missing(i) > w%tolerance(i))
-      w%growth(i) = chosen(too_short, 1.0_wp, w%growth(i))
-      tags(b + i, t_rule) = merge(int(rule_long, int64), tags(b + i, t_rule), too_short * w%going(i) > half)
-      w%going(i) = w%going(i) * (1.0_wp - too_short) * merge(1.0_wp, 0.0_wp, w%growth(i) >= worth_trying)
+      w%going(i) = w%going(i) * merge(1.0_wp, 0.0_wp, w%growth(i) >= worth_trying .and. missing(i) <= w%tolerance(i))
     end do
   end subroutine look
 
   !> Sweeps until the corrections are small enough. Lanes that are settled stay as they are, so that no lane depends on its
   !> neighbours.
-  pure subroutine sweeps(m, rule, b, lanes, origin, slopes, nodes, w, bad)
+  pure subroutine sweeps(m, b, lanes, origin, slopes, nodes, w, bad)
     type(material_type), intent(in) :: m
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     type(origin_type), intent(in) :: origin
     type(slopes_type), intent(in) :: slopes
@@ -177,7 +170,7 @@ contains
                 outside(width), ratio, fails, settled
     integer :: i, k, n, comp, round
 
-    n = rules(rule)%n
+    n = last_node
     active = w%going
     previous = huge(previous)
     unchanged = 0.0_wp
@@ -189,13 +182,13 @@ contains
         call tensors_at(m, b, lanes, origin, w%u(:, :, k), nodes%length(:, k), h, outside)
         call apply(m, h, nodes%x(:, :, k), nodes%weight(:, k), next%f(:, :, k))
       end do
-      call integrate_to_nodes(rule, next)
+      call integrate_to_nodes(next)
       do k = 1, n
         correction(:, :, k) = next%u(:, :, k) - w%u(:, :, k)
       call add_linear(m, origin, slopes, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k), correction(:, :, k), &
                         unchanged, next%f(:, :, k))
       end do
-      call integrate_to_nodes(rule, next)
+      call integrate_to_nodes(next)
       correction(:, :, n) = next%u(:, :, n) - w%u(:, :, n)
       change = size_of(correction(:, :, n))
       final = size_of(next%u(:, :, n))
@@ -225,20 +218,19 @@ contains
   end subroutine sweeps
 
   !> Accept or refuse the step, and choose the next one's size.
-  pure subroutine decide(m, rule, b, lanes, tags, nodes, w, bad)
+  pure subroutine decide(m, b, lanes, tags, nodes, w, bad)
     type(material_type), intent(in) :: m
-    integer, intent(in) :: rule, b
+    integer, intent(in) :: b
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     type(nodes_type), intent(in) :: nodes
     type(work_type), intent(inout) :: w
     real(wp), intent(inout) :: bad(width)
-    type(node_type) :: final
     real(wp) :: stress(width, 6), theta(width), missing(width), growth(width), scale(width), accepted(width), done(width), after, &
                 fine, keeps, p_t, smallest, least
     integer :: i, n, comp
 
-    n = rules(rule)%n
+    n = last_node
     p_t = m%p_t
     smallest = m%soft_pressure
     least = reach_of_border * m%confinement / 3.0_wp ! as in is_negative_definite
@@ -247,8 +239,8 @@ contains
       stress(:, comp) = lanes(b + 1:b + width, l_stress - 1 + comp) + w%u(:, comp, n)
     end do
     scale = max(w%scale, size_of(stress))
-    missing = missing_of(m, rule, nodes, w%f, theta, scale)
-    call growth_after(w%tolerance, rule, missing, theta, w%going, growth)
+    missing = missing_of(m, nodes, w%f, theta, scale)
+    call growth_after(w%tolerance, missing, theta, w%going, growth)
     do comp = 1, 6
       stress(:, comp) = stress(:, comp) + (nodes%end - 1.0_wp) * w%f(:, comp, n)
     end do
@@ -263,9 +255,8 @@ contains
       bad(i) = max(bad(i), fine * (1.0_wp - keeps), fine * outside_domain(stress(i, 1) - p_t, stress(i, 2) - p_t, &
                                                                        stress(i, 3) - p_t, stress(i, 4), stress(i, 5), &
                                                                           stress(i, 6), smallest, least))
-      growth(i) = chosen(fine, growth(i), merge(1.0_wp, min(growth(i), 0.9_wp), rule == rule_short))
+      growth(i) = chosen(fine, growth(i), min(growth(i), 0.9_wp))
       w%growth(i) = chosen(w%going(i), growth(i), w%growth(i))
-      tags(b + i, t_rule) = merge(int(rule_long, int64), tags(b + i, t_rule), w%going(i) - fine > half)
       accepted(i) = fine * merge(0.0_wp, 1.0_wp, bad(i) > half)
       lanes(b + i, l_stress) = chosen(accepted(i), stress(i, 1), lanes(b + i, l_stress))
       lanes(b + i, l_stress + 1) = chosen(accepted(i), stress(i, 2), lanes(b + i, l_stress + 1))
@@ -276,8 +267,7 @@ contains
     end do
     if (any(done > half)) then
       if (m%intergranular) then
-        call path_node(m, b, lanes, tags, nodes%end, final)
-        call move_delta(m, b, done, final, lanes)
+        call move_delta(m, b, done, (nodes%end - 1.0_wp) * nodes%strain(:, n), nodes%point(n), lanes)
       end if
       !GCC$ ivdep
       do i = 1, width
@@ -296,13 +286,13 @@ contains
       end do
       if (m%intergranular) call carry_node(b, nodes%point(n), w%going, lanes)
     end if
-    call refuse(rule, b, nodes, w, bad, lanes, tags)
+    call refuse(b, nodes, w, bad, lanes, tags)
   end subroutine decide
 
   !> The next step of lanes that are not done; lanes that the scalar update must do.
   !> @param w going is 1 where a step was accepted
-  pure subroutine refuse(rule, b, nodes, w, bad, lanes, tags)
-    integer, intent(in) :: rule, b
+  pure subroutine refuse(b, nodes, w, bad, lanes, tags)
+    integer, intent(in) :: b
     type(nodes_type), intent(in) :: nodes
     type(work_type), intent(in) :: w
     real(wp), intent(in) :: bad(width)
@@ -310,7 +300,7 @@ contains
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     real(wp) :: goes_on
     integer :: i, n
-    n = rules(rule)%n
+    n = last_node
     !GCC$ ivdep
     do i = 1, width
       goes_on = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_going)
@@ -321,17 +311,20 @@ contains
     end do
   end subroutine refuse
 
-  !> delta where the segment ends.
-  pure subroutine move_delta(m, b, done, final, lanes)
+  !> delta where the segment ends; delta_after in delta_path.f90.
+  !> @param rest  length of strain behind the last node
+  pure subroutine move_delta(m, b, done, rest, final, lanes)
     type(material_type), intent(in) :: m
     integer, intent(in) :: b
-    real(wp), intent(in) :: done(width)
+    real(wp), intent(in) :: done(width), rest(width)
     type(node_type), intent(in) :: final
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
-    real(wp) :: along(width), across(width)
+    real(wp) :: size(width), along(width), across(width)
     integer :: comp
-    along = m%R * final%rho * final%along
-    across = m%R * final%rho * final%across
+    ! Eq. (14): d delta/d lambda = d - rho^beta_r cos(theta) deltahat.
+    size = m%R * final%rho - rest * (1.0_wp - final%left) * final%along
+    along = size * final%along + rest
+    across = size * final%across
     do comp = 0, 5
       lanes(b + 1:b + width, l_delta + comp) = chosen(done, along * lanes(b + 1:b + width, l_along + comp) + &
                                                       across * lanes(b + 1:b + width, l_across + comp), &

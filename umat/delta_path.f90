@@ -22,7 +22,8 @@ module umat_delta_path
   use umat_tensor, only: ddot, norm
   implicit none
   private
- public :: delta_path_type, delta_path, path_point_type, path_point, delta_of, first_guess, measures_length, kappa_slope
+ public :: delta_path_type, delta_path, path_point_type, path_point, delta_after, first_guess
+  public :: starts_at_zero, measures_length, kappa_slope
   public :: delta_influence_type, delta_influence
 
   !> Below this v, Eq. (20) cancels more digits than the limit v = 0 leaves out.
@@ -164,13 +165,23 @@ contains
     end if
   end function loss
 
-  !> delta at a point.
-  pure function delta_of(m, point) result(delta)
+  !> delta a little way behind a point, along its tangent: theory.md Eq. (14).
+  !> @param length of strain from the point on [strain]
+  pure function delta_after(m, path, point, length) result(delta)
     type(material_type), intent(in) :: m
+    type(delta_path_type), intent(in) :: path
     type(path_point_type), intent(in) :: point
+    real(wp), intent(in) :: length
     real(wp) :: delta(6)
-    delta = m%R * point%g%rho * point%g%direction
-  end function delta_of
+    delta = m%R * point%g%rho * point%g%direction + length * (path%along - point%rho_beta * point%cosine * point%g%direction)
+  end function delta_after
+
+  !> Does delta start from zero?
+  pure function starts_at_zero(path) result(yes)
+    type(delta_path_type), intent(in) :: path
+    logical :: yes
+    yes = path%kind == kind_axis .and. .not. path%start > 0.0_wp
+  end function starts_at_zero
 
   !> First guess of the step of the parameter that covers a length of strain [parameter].
   pure function first_guess(m, path, length) result(h)

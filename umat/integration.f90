@@ -1,6 +1,6 @@
 !> Adaptive integration of the stress along one branch of the intergranular strain, at a constant direction of strain.
 module umat_integration
-  use umat_delta_path, only: delta_path, path_point, delta_of, first_guess
+  use umat_delta_path, only: delta_path, path_point, delta_after, first_guess, starts_at_zero
   use umat_influence, only: influence_type
   use umat_kinds, only: wp
   use umat_leg, only: leg_type, void_ratio_at
@@ -16,7 +16,7 @@ module umat_integration
   private
   public :: options_type, report_type, integrate
   ! For many points side by side (batch_begin.F90).
-  public :: vanishing, first_step, nearly
+  public :: vanishing, first_step, first_from_zero, nearly
 
   !> Options of an update.
   type :: options_type
@@ -39,6 +39,8 @@ module umat_integration
   !> First step tried, at the default tolerance: this part of R, in which delta turns. Where the stress changes too much the
   !> prediction shortens it.
   real(wp), parameter :: step_of_R = 0.6_wp, step_with_tangent = 0.5_wp
+  !> The same from delta = 0, over the tolerance, and at least.
+  real(wp), parameter :: step_from_zero = 1.0e3_wp, least_from_zero = 1.0e-5_wp
   !> With the tangent, the rule of three nodes is tried first up to this part of R, or this strain of the plain model.
   real(wp), parameter :: few_nodes_of_R = 0.05_wp, few_nodes_plain = 1.0e-6_wp
 
@@ -97,6 +99,7 @@ contains
     leg%path = delta_path(m, state%delta, direction, branch, turn)
     wanted = length
     if (m%intergranular) wanted = min(length, first_step(options, with_tangent) * m%R)
+    if (starts_at_zero(leg%path)) wanted = min(wanted, first_from_zero(options) * m%R)
     step%rule = rule_long
   if (with_tangent .and. wanted <= merge(few_nodes_of_R * m%R, few_nodes_plain, m%intergranular)) step%rule = rule_short
     step%x = leg%path%start
@@ -127,11 +130,23 @@ contains
     if (status /= status_ok) return
     report%substep = growth * covered
     report%regularised = report%regularised .or. step%outside
-    if (m%intergranular) state%delta = delta_of(m, path_point(m, leg%path, step%x + step%end * step%h))
+    if (m%intergranular) then
+      associate (n => rules(step%rule)%n)
+        state%delta = delta_after(m, leg%path, step%nodes%point(n), (step%end - 1.0_wp) * step%nodes%strain(n))
+      end associate
+    end if
     state%void_ratio = void_ratio_at(leg, length)
     state%stress = step%stress
     influence = step%influence
   end subroutine integrate
+
+  !> First step tried from delta = 0, as a part of R. There rho^beta_r bends the path whatever the scale, so that the error of a step
+  !> is a fixed part of it.
+  pure function first_from_zero(options) result(part)
+    type(options_type), intent(in) :: options
+    real(wp) :: part
+    part = max(step_from_zero * options%tolerance, least_from_zero)
+  end function first_from_zero
 
   !> First step tried, as a part of R; the errors of a step (step.f90) grow with its seventh power.
   pure function first_step(options, with_tangent) result(part)

@@ -15,7 +15,7 @@ module umat_step
   public :: step_type, reach, try, size_of, growth_of
   ! The update of many points side by side (batch_step.F90) takes the same steps.
   public :: least_share, most_share, most_sweeps, good_sweeps, rounding, close_enough, worth_trying, too_many_sweeps
-  public :: least_growth, most_growth, safety, most_trials, most_interpolations, part_of_pressure
+  public :: least_growth, most_growth, safety, most_trials, most_iterations, slowest, inner_square, part_of_pressure
 
   !> A step and where it stands.
   type :: step_type
@@ -38,8 +38,13 @@ module umat_step
   real(wp), parameter :: least_share = 0.05_wp, most_share = 0.5_wp
   !> Sweeps tried before the step is shortened, and the number that a step of good size needs.
   integer, parameter :: most_sweeps = 5, good_sweeps = 2
-  !> Trials of the length of a last step, and how many of them go by interpolation, the others by Newton's method.
-  integer, parameter :: most_trials = 12, most_interpolations = 3
+  !> Trials of the length of a last step.
+  integer, parameter :: most_trials = 6
+  !> Iterations to the place where a length is reached, and the part of the last speed below which none is taken for one.
+  integer, parameter :: most_iterations = 4
+  real(wp), parameter :: slowest = 1.0e-3_wp
+  !> Square of the place of the inner nodes of the long rule, between -1 and 1.
+  real(wp), parameter :: inner_square = 3.0_wp / 7.0_wp
   !> Part of -tr(T - p_t 1) below which the size of the stress says nothing; below 1/sqrt(3), so that it acts with p_t alone.
   real(wp), parameter :: part_of_pressure = 0.5_wp
   !> Bounds of the change of a step, and the part of it that is taken.
@@ -89,12 +94,7 @@ contains
           step%end = 1.0_wp + (ahead - covered) / step%nodes%strain(n)
           return
         end if
-        ! Next to delta = 0, where the length grows like the fourth power, interpolation may run in circles.
-        if (i <= most_interpolations) then
-          step%h = step%h * place_of(rules(step%rule)%c(:n), step%nodes%length(:n), ahead)
-        else
-          step%h = step%h * max(0.1_wp, min(2.0_wp, 1.0_wp + (ahead - covered) / step%nodes%strain(n)))
-        end if
+        step%h = step%h * place_of(n, step%nodes%strain(:n), ahead)
       end associate
     end do
     ! No smooth path: go on with a step that surely ends before the leg does, for the speed grows along a path.
@@ -112,22 +112,39 @@ contains
                      step%nodes)
   end subroutine place
 
-  !> Where in the step a length of strain is reached: inverse interpolation between the nodes, by Neville's scheme.
-  pure function place_of(c, lengths, length) result(place)
-    real(wp), intent(in) :: c(0:), lengths(0:), length
+  !> Where in the step a length of strain is reached, 0 to 1 or a little beyond: Newton's method on the integral of the
+  !> polynomial through the speeds at the nodes, from the end; the length is convex, for the speed grows.
+  !> @param n      nodes behind the start
+  !> @param strain length per unit of the step at the nodes
+  !> @param length to be reached
+  pure function place_of(n, strain, length) result(place)
+    integer, intent(in) :: n
+    real(wp), intent(in) :: strain(0:n), length
     real(wp) :: place
-    real(wp) :: table(0:most_nodes)
-    integer :: n, i, k
-    n = ubound(c, 1)
-    table(:n) = c
-    do i = 1, n
-      do k = 0, n - i
-        table(k) = ((length - lengths(k + i)) * table(k) - (length - lengths(k)) * table(k + 1)) / &
-                   (lengths(k) - lengths(k + i))
-      end do
+    real(wp) :: even(2), odd(2), before, covered, speed, t
+    integer :: i
+    ! Powers of t, which runs from -1 to 1, in two pairs.
+    even = 0.5_wp * (strain(n) + strain(0)) - strain(n / 2)
+    odd = 0.5_wp * (strain(n) - strain(0))
+    if (n == 4) then
+      even(2) = (inner_square * even(1) - 0.5_wp * (strain(3) + strain(1)) + strain(2)) / (inner_square * (1.0_wp - inner_square))
+      even(1) = even(1) - even(2)
+      odd(2) = (odd(1) - 0.5_wp * (strain(3) - strain(1)) / sqrt(inner_square)) / (1.0_wp - inner_square)
+      odd(1) = odd(1) - odd(2)
+    else
+      even(2) = 0.0_wp
+      odd(2) = 0.0_wp
+    end if
+    before = strain(n / 2) - odd(1) / 2.0_wp + even(1) / 3.0_wp - odd(2) / 4.0_wp + even(2) / 5.0_wp
+    t = 1.0_wp
+    do i = 1, most_iterations
+      speed = strain(n / 2) + t * (odd(1) + t * (even(1) + t * (odd(2) + t * even(2))))
+      covered = before + t * (strain(n / 2) + t * (odd(1) / 2.0_wp + t * (even(1) / 3.0_wp + &
+                                                                         t * (odd(2) / 4.0_wp + t * even(2) / 5.0_wp))))
+      t = t + (2.0_wp * length - covered) / max(speed, slowest * strain(n))
+      t = max(-0.8_wp, min(3.0_wp, t))
     end do
-    place = table(0)
-    if (.not. (place > 0.1_wp .and. place < 2.0_wp)) place = max(0.1_wp, min(2.0_wp, length / lengths(n)))
+    place = 0.5_wp * (1.0_wp + t)
   end function place_of
 
   !> Try a step whose nodes are placed.
@@ -161,7 +178,7 @@ contains
       return
     end if
     growth = growth_after(missing, theta, tolerance, n)
-    if (growth < worth_trying) return
+    if (missing > tolerance .or. growth < worth_trying) return
 
     call sweeps(m, leg, step, by_stress, tensors, f, u, left, growth)
     if (growth < 1.0_wp) return
@@ -263,7 +280,7 @@ contains
     if (measures_length(leg%path)) return
     associate (n => rules(step%rule)%n, mode => rules(step%rule)%mode, strain => step%nodes%strain)
       missing = tail([abs(dot_product(mode(:n, 0), strain(:n))), abs(dot_product(mode(:n, 1), strain(:n))), &
-                      abs(dot_product(mode(:n, 2), strain(:n)))], n, 0.0_wp)
+                      abs(dot_product(mode(:n, 2), strain(:n))), abs(dot_product(mode(:n, 3), strain(:n)))], n, 0.0_wp)
     end associate
   end function missing_length
 

@@ -93,6 +93,8 @@ static void test_gap_closes_where_it_opened(void **unused) {
 static void test_integrated_within_tolerance(void **unused) {
   (void)unused;
   random_stream r = {71};
+  /* At 1e-11 rounding next to zero stress stops one path in two hundred. */
+  const hypofab_update_options reference = {.tolerance = 1e-10, .max_evaluations = 1000000, .regularised = 1};
   for (int i = 0; i < 40; i++) {
     const hypofab_material material = random_material(&r);
     hypofab_state once = random_state(&r, &material), often = once, tightly = once;
@@ -101,7 +103,7 @@ static void test_integrated_within_tolerance(void **unused) {
     for (int k = 0; k < 6; k++) strain[k] = 5e-3 * direction[k];
     go(&material, &once, direction, 5e-3, 1);
     go(&material, &often, direction, 5e-5, 100);
-    assert_int_equal(hypofab_update(&material, &tight, &tightly, strain, NULL, NULL), HYPOFAB_OK);
+    assert_int_equal(hypofab_update(&material, &reference, &tightly, strain, NULL, NULL), HYPOFAB_OK);
     const double scale = fmax(tensor_norm(tightly.stress), 1e-6 * material.h_s);
     assert_true(tensor_distance(once.stress, tightly.stress) < 1e-5 * scale);
     assert_true(tensor_distance(often.stress, tightly.stress) < 3e-5 * scale);
