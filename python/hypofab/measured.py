@@ -35,7 +35,8 @@ def read_measured(paths: Mapping[str, str | Path]) -> Measured:
 def quantity(columns: Mapping[str, Array], name: str) -> Array | None:
     """A column by its name in result files, or what follows for it from others; None: not there.
 
-    eps_1, the axial strain of a triaxial test, with eps_v (missing: none) gives eps_q = abs(eps_1 - eps_v/3).
+    eps_1, the axial strain of a triaxial test, with eps_v (missing: none) gives eps_q = abs(eps_1 - eps_v/3); both have
+    the sign of the results.
     """
     for known in (name, *OTHER_NAMES.get(name, ())):
         if known in columns:

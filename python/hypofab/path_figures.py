@@ -78,7 +78,7 @@ def axial_component(test: TestResult) -> int:
 def loops(run: Run, *, measured: Measured | None = None) -> Figure:
     """Deviator along the axis over axial strain, compression positive: the loops of cyclic triaxial tests.
 
-    measured: columns eps_1, the axial strain, compression positive, and q.
+    measured: columns eps_1, the axial strain in the sign of the results, and q.
     """
     sign = 1 if run.compression_positive else -1
     with rc_context(STYLE):
@@ -90,7 +90,7 @@ def loops(run: Run, *, measured: Measured | None = None) -> Figure:
             strain = sign * test.strain[:, axial_component(test)]
             style = line_style(index) | {"linewidth": 0.6 * line_style(index)["linewidth"]}
             axes.plot(100 * strain, test.q_signed, label=test.name, **style)
-        laboratory.draw(axes, measured or {}, ("eps_1", "q_signed"), (100, 1))
+        laboratory.draw(axes, measured or {}, ("eps_1", "q_signed"), (100 * sign, 1))
         axes.set(
             xlabel=r"axial strain $\varepsilon_1$ [%] (compression positive)",
             ylabel=rf"axial deviator $q$ [{run.unit}]",

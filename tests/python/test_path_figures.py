@@ -62,8 +62,10 @@ def test_loops_are_drawn_over_the_axial_strain_in_compression(
     stress[:, axis] += sign * 1e4 * np.linspace(0, 0.01, len(strain))
     test = replace(test, stress=stress, strain=strain, q_signed=1e4 * np.linspace(0, 0.01, len(strain)))
     assert axial_component(test) == axis
-    line = next(line for line in loops(replace(run, tests=(test,))).axes[0].lines if line.get_label() == "stiff")
-    np.testing.assert_allclose(line.get_ydata(), 100 * line.get_xdata())
+    data = {"lab": {"eps_1": np.array([0.0, sign * 0.02]), "q": np.array([0.0, 200.0])}}
+    drawn = {line.get_label(): line for line in loops(replace(run, tests=(test,)), measured=data).axes[0].lines}
+    for line in (drawn["stiff"], drawn["lab"]):
+        np.testing.assert_allclose(line.get_ydata(), 100 * line.get_xdata())
 
 
 def test_measured_columns_by_their_other_names() -> None:
