@@ -88,6 +88,26 @@ void synthetic_triaxial(synthetic *data, int index, const hypofab_material *mate
   measure(data, index, HYPOFAB_LAB_Q);
 }
 
+void synthetic_undrained_cycles(synthetic *data, int index, const hypofab_material *material, double void_ratio,
+                                double pressure, double amplitude) {
+  hypofab_step steps[4] = {0};
+  for (int k = 0; k < 4; k++) {
+    const char *preset = k % 2 ? "undrained_triaxial_extension" : "undrained_triaxial_compression";
+    assert_int_equal(hypofab_step_preset(&steps[k], preset, 2, 1.0), HYPOFAB_OK);
+    steps[k].until = (hypofab_mark){HYPOFAB_Q_SIGNED, k % 2 ? -amplitude : amplitude};
+    steps[k].rows = 14;
+  }
+  const hypofab_laboratory_test test = {.name = "cycles",
+                                        .kind = HYPOFAB_LAB_UNDRAINED_CYCLIC,
+                                        .sigma1 = pressure,
+                                        .sigma3 = pressure,
+                                        .void_ratio = void_ratio};
+  run(data, index, material, &test, steps, 4);
+  measure(data, index, HYPOFAB_LAB_EPS1);
+  measure(data, index, HYPOFAB_LAB_P);
+  measure(data, index, HYPOFAB_LAB_Q);
+}
+
 void synthetic_add_noise(synthetic *data, int n_tests, double share, unsigned long seed) {
   gsl_rng *generator = gsl_rng_alloc(gsl_rng_mt19937);
   gsl_rng_set(generator, seed);

@@ -23,6 +23,10 @@ void synthetic_oedometer(synthetic *data, int index, const hypofab_material *mat
 void synthetic_triaxial(synthetic *data, int index, const hypofab_material *material, double void_ratio,
                         double pressure, double strain, double loop);
 
+/** Undrained cycles of q between plus and minus an amplitude: two, as a stress-controlled apparatus runs them. */
+void synthetic_undrained_cycles(synthetic *data, int index, const hypofab_material *material, double void_ratio,
+                                double pressure, double amplitude);
+
 /** Add independent normal noise to every quantity: `share` of its range (of its logarithm, for sigma1). */
 void synthetic_add_noise(synthetic *data, int n_tests, double share, unsigned long seed);
 

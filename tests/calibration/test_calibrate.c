@@ -105,10 +105,35 @@ static void a_void_ratio_is_found(void **state) {
   assert_true(fabs(result.value[0] - 0.71) < 1e-4);
 }
 
+/* Undrained cycles tell void ratio and memory; a sample so loose that it liquefies is compared up to there. */
+static void undrained_cycles_are_followed(void **state) {
+  (void)state;
+  static synthetic data;
+  const hypofab_material sand = sand_of("karlsruhe_fine");
+  synthetic_undrained_cycles(&data, 0, &sand, 0.82, 100, 45);
+  const hypofab_free_parameter parameters[] = {free_one(&sand, M_R, 1.3),
+                                               {.index = -1, .test = 0, .start = 0.86, .lower = 0.7, .upper = 1.04}};
+  const hypofab_calibration_problem problem = {
+      .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 2, .parameters = parameters};
+  calibrate(&problem, NULL);
+  assert_true(fabs(result.value[0] / sand.m_R - 1) < 0.02 && fabs(result.value[1] - 0.82) < 2e-3);
+  const double loose[2] = {sand.m_R, 1.035};
+  hypofab_laboratory_comparison found;
+  assert_int_equal(hypofab_calibration_compare(&problem, NULL, loose, 0, &found), HYPOFAB_OK);
+  assert_true(found.status > HYPOFAB_OK && found.status < HYPOFAB_BAD_MATERIAL);
+  const int last = found.computed[found.n_computed - 1].leg;
+  assert_true(last < 3 && found.measured[found.n_measured - 1].leg == 3);
+  assert_true(isfinite(found.rms) && found.rms > 0.1);
+  /* The last row is as far as the end of what was computed. */
+  for (int q = 0; q < HYPOFAB_N_LAB; q++)
+    assert_true(found.nearest[found.n_measured - 1].value[q] == found.computed[found.n_computed - 1].value[q]);
+  hypofab_laboratory_comparison_free(&found);
+}
+
 /* A small Monte Carlo: 95 % intervals hold the truth about as often as they say, whatever the weights of the tests. */
 static void standard_errors_are_right(void **state) {
   (void)state;
-  enum { SAMPLES = 16, N = 3 };
+  enum { SAMPLES = 10, N = 3 };
   static synthetic clean, data;
   const hypofab_material sand = sand_of("hochstetten_1999");
   synthetic_oedometer(&clean, 0, &sand, 0.85);
@@ -134,7 +159,7 @@ static void standard_errors_are_right(void **state) {
       inside += fabs(z) < 1.96;
     }
   }
-  if (inside < 40 || squares < 0.5 || squares > 1.7)
+  if (inside < 24 || squares < 0.4 || squares > 1.9)
     fail_msg("%d of %d inside 1.96 standard errors, mean square %g", inside, SAMPLES * N, squares);
 }
 
@@ -194,10 +219,10 @@ static void what_cannot_be_computed_does_not_end_the_fit(void **state) {
   assert_int_equal(hypofab_calibrate(&hopeless, NULL, NULL, NULL, &result), HYPOFAB_OK);
   assert_true(fabs(result.distance - 3) < 1e-12 && is_found("no test depends on e_d0"));
   /* Other starts find it. */
-  assert_int_equal(hypofab_calibrate(&hopeless, &(hypofab_calibration_options){.starts = 4, .max_iterations = 30}, NULL,
+  assert_int_equal(hypofab_calibrate(&hopeless, &(hypofab_calibration_options){.starts = 3, .max_iterations = 20}, NULL,
                                      NULL, &result),
                    HYPOFAB_OK);
-  assert_true(result.distance < 0.01 && result.fits == 4 && result.fit_distance[0] > 2.9);
+  assert_true(result.distance < 0.01 && result.fits == 3 && result.fit_distance[0] > 2.9);
 }
 
 /* Exact derivatives and central differences lead to the same place, and say the same of its surroundings. */
@@ -281,6 +306,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(parameters_are_recovered),
                                      cmocka_unit_test(intergranular_parameters_are_recovered_from_a_loop),
                                      cmocka_unit_test(a_void_ratio_is_found),
+                                     cmocka_unit_test(undrained_cycles_are_followed),
                                      cmocka_unit_test(standard_errors_are_right),
                                      cmocka_unit_test(what_the_data_cannot_tell_is_said),
                                      cmocka_unit_test(what_cannot_be_computed_does_not_end_the_fit),
