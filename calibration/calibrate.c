@@ -18,12 +18,11 @@ static double seconds_now(void) {
 }
 
 /* Starts other than the given one: a Sobol sequence over the inner part of the bounds. */
-static hypofab_status next_start(const hypofab_calibration_problem *problem, gsl_qrng *sequence, double *start) {
+static void next_start(const hypofab_calibration_problem *problem, gsl_qrng *sequence, double *start) {
   double share[HYPOFAB_MAX_FREE];
   gsl_qrng_get(sequence, share);
   for (int j = 0; j < problem->n_parameters; j++)
     start[j] = unknown_between(&problem->parameters[j], 0.1 + 0.8 * share[j]);
-  return HYPOFAB_OK;
 }
 
 static hypofab_status fit_all(residuals *r, const hypofab_calibration_options *options, const fit_watch *whole,

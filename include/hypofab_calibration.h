@@ -83,7 +83,7 @@ hypofab_status hypofab_calibration_bounds(int index, double kpa, double *lower, 
 /** Laboratory tests and what is to be found from them. */
 typedef struct hypofab_calibration_problem {
   hypofab_material material; /**< parameters that are not free */
-  double ratio[3];           /**< e_d0/e_c0 and e_i0/e_c0 are kept at [0] and [1] where these are > 0; [2] is unused */
+  double ratio[2];           /**< where > 0: e_d0/e_c0 and e_i0/e_c0 are kept at these */
   int n_tests;
   const hypofab_laboratory_test *tests;
   int n_parameters;
