@@ -89,6 +89,8 @@ def test_newton_converges_quadratically(footings: dict[str, Run], name: str) -> 
     )
     assert footing.times[-1] == pytest.approx(10)
     assert max(iterations) <= 12
+    # The ground beside the edge comes to zero stress; the behaviour answers there and asks for no smaller step.
+    assert len(accepted) == len(footing.steps)
     assert len(orders) >= len(accepted) // 2
     assert np.median(orders) > 1.7
 
