@@ -18,6 +18,13 @@
 /* clang-format on */
 
 static const hypofab_update_options as_host = {.regularised = 1};
+/* Checks and sanitizers are slow: this part of the states then. */
+#ifdef NDEBUG
+enum { PART = 1 };
+#else
+enum { PART = 20 };
+#endif
+
 static const hypofab_update_options tight = {.tolerance = 1e-11, .max_evaluations = 1000000, .regularised = 1};
 
 enum { N_SANDS = 3, N_DIRECTIONS = 4 };
@@ -55,7 +62,7 @@ static void start(int sand, int plain, double p_t, hypofab_material *material, h
 static void test_extension_and_back(void **unused) {
   (void)unused;
   double largest = 0.0;
-  for (int i = 0; i < 2 * 2 * N_SANDS * N_DIRECTIONS; i++) {
+  for (int i = 0; i < 2 * 2 * N_SANDS * N_DIRECTIONS; i += PART > 1 ? 7 : 1) {
     hypofab_material material;
     const int increments = i & 1 ? 100 : 1;
     const double p_t = i & 2 ? 2.0 : 0.0, *direction = directions[i / 4 % N_DIRECTIONS];
@@ -77,7 +84,7 @@ static void test_extension_and_back(void **unused) {
 /* A gap closes where it opened, within what delta and the pressure at which softening begins need. */
 static void test_gap_closes_where_it_opened(void **unused) {
   (void)unused;
-  for (int sand = 0; sand < N_SANDS; sand++) {
+  for (int sand = PART > 1 ? N_SANDS - 1 : 0; sand < N_SANDS; sand++) {
     hypofab_material material;
     hypofab_state state;
     start(sand, 0, 0.0, &material, &state);
@@ -95,7 +102,7 @@ static void test_integrated_within_tolerance(void **unused) {
   random_stream r = {71};
   /* At 1e-11 rounding next to zero stress stops one path in two hundred. */
   const hypofab_update_options reference = {.tolerance = 1e-10, .max_evaluations = 1000000, .regularised = 1};
-  for (int i = 0; i < 40; i++) {
+  for (int i = 0; i < 40 / PART; i++) {
     const hypofab_material material = random_material(&r);
     hypofab_state once = random_state(&r, &material), often = once, tightly = once;
     double strain[6];
@@ -115,7 +122,7 @@ static void test_inside_nothing_changes(void **unused) {
   (void)unused;
   random_stream r = {72};
   int compared = 0;
-  for (int i = 0; i < 300; i++) {
+  for (int i = 0; i < 300 / PART; i++) {
     const hypofab_material material = random_material(&r);
     hypofab_state strict = random_state(&r, &material), other = strict;
     double strain[6], tangent[36], other_tangent[36];
@@ -129,7 +136,7 @@ static void test_inside_nothing_changes(void **unused) {
     assert_memory_equal(tangent, other_tangent, sizeof tangent);
     compared++;
   }
-  assert_true(compared > 250);
+  assert_true(compared > 250 / PART);
 }
 
 /* A state at or beyond the border, brought there by a random extension. */
@@ -147,7 +154,7 @@ static void random_beyond(random_stream *r, const hypofab_material *material, hy
 static void test_objective_and_free_of_units(void **unused) {
   (void)unused;
   random_stream r = {73};
-  for (int i = 0; i < 60; i++) {
+  for (int i = 0; i < 60 / PART; i++) {
     hypofab_material material = random_material(&r), scaled = material;
     hypofab_state state, turned, large;
     double strain[6], turned_strain[6], q[3][3], expected[6];
@@ -177,7 +184,7 @@ static void test_tangent(void **unused) {
   (void)unused;
   random_stream r = {74};
   int compared = 0, bad = 0;
-  for (int i = 0; i < 200; i++) {
+  for (int i = 0; i < 200 / PART; i++) {
     const hypofab_material material = random_material(&r);
     hypofab_state state, end;
     double strain[6], tangent[36], size = 0.0, error = 0.0;
@@ -217,19 +224,19 @@ static void test_tangent(void **unused) {
     }
   }
   print_message("%d of %d tangents are off\n", bad, compared);
-  assert_true(compared > 100);
+  assert_true(compared > 80 / PART);
   assert_int_equal(bad, 0);
 }
 
 /* Many points side by side get what single ones get. */
 static void test_batch(void **unused) {
   (void)unused;
-  enum { N = 200 };
+  enum { N = PART > 1 ? 40 : 200 };
   static double stress[6 * N], delta[6 * N], void_ratio[N], strain[6 * N];
   static int status[N];
   static hypofab_state expected[N];
   random_stream r = {75};
-  for (int cloud = 0; cloud < 4; cloud++) {
+  for (int cloud = 0; cloud < (PART > 1 ? 1 : 4); cloud++) {
     const hypofab_material material = random_material(&r);
     for (int i = 0; i < N; i++) {
       double direction[6];

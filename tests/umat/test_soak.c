@@ -2,7 +2,7 @@
  * Random calls of umat_, a share of them garbage: every answer is finite or flagged, the work bounded, the state
  * untouched when flagged, no byte written outside the arrays. And many threads at once give bitwise the results of one.
  *
- *   test_soak [CALLS]     100,000 calls unless told otherwise; 10,000 under checks and sanitizers
+ *   test_soak [CALLS]     100,000 calls unless told otherwise; 2,000 under checks and sanitizers
  */
 #include <math.h>
 #include <pthread.h>
@@ -25,7 +25,7 @@
 #ifdef NDEBUG
 static long n_calls = 100000;
 #else
-static long n_calls = 10000;
+static long n_calls = 2000;
 #endif
 
 /* Arrays of a call with a guard on both sides of each. */
