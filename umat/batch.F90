@@ -320,12 +320,12 @@ contains
       select case (instructions)
 #ifdef HYPOFAB_BATCH_X86
       case (avx512)
-        call attempt_step_avx512(m, options%tolerance, 0, padded(left), lanes, tags)
+        call attempt_step_avx512(m, options%tolerance, padded(left), lanes, tags)
       case (avx2)
-        call attempt_step_avx2(m, options%tolerance, 0, padded(left), lanes, tags)
+        call attempt_step_avx2(m, options%tolerance, padded(left), lanes, tags)
 #endif
       case default
-        call attempt_step_portable(m, options%tolerance, 0, padded(left), lanes, tags)
+        call attempt_step_portable(m, options%tolerance, padded(left), lanes, tags)
       end select
     end subroutine attempt
 

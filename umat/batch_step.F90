@@ -40,17 +40,17 @@ contains
 
   !> One step of every lane that is going: choose its size so that it ends with the segment or as the error control wants,
   !> do it, accept or refuse it.
-  !> @param first, n  lanes first + 1 to first + n, multiples of width
+  !> @param n         lanes 1 to n, a multiple of width
   !> @param tolerance relative error, as in options_type
   !> @param lanes     outcome_going lanes are stepped; outcome says what became of them
-  pure subroutine attempt_step(m, tolerance, first, n, lanes, tags)
+  pure subroutine attempt_step(m, tolerance, n, lanes, tags)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
-    integer, intent(in) :: first, n
+    integer, intent(in) :: n
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     integer :: b
-    do b = first, first + n - 1, width
+    do b = 0, n - 1, width
       call attempt_block(m, tolerance, b, lanes, tags)
     end do
   end subroutine attempt_step
