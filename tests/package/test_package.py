@@ -104,6 +104,17 @@ def test_python_commands_are_those_that_the_program_has_not() -> None:
     assert own == set(PYTHON_COMMANDS)
 
 
+def test_the_help_of_the_command_lists_all_commands_for_readers_and_for_shells() -> None:
+    of_program = run(packaged_program(), "--help").splitlines()
+    listed = run(COMMAND, "--help").splitlines()
+    assert [line for line in listed if line in of_program] == of_program
+    added = [line.split(maxsplit=1) for line in listed if line not in of_program]
+    assert dict(added) == PYTHON_COMMANDS
+    script = Path(__file__).parents[2] / "cli" / "completion" / "hypofab.bash"
+    line = 'source "$1"; COMP_WORDS=("$2" sw); COMP_CWORD=1; _hypofab; echo "${COMPREPLY[@]}"'
+    assert run("bash", "-c", line, "bash", script, COMMAND) == "sweep\n"
+
+
 def test_modules_that_call_the_program_find_the_installed_one(examples: Path) -> None:
     code = (
         "from hypofab.contacts import delta; from hypofab.__main__ import default_program; import sys\n"
