@@ -37,7 +37,7 @@ static void print_help(FILE *stream) {
       "From grain contacts to finite elements: hypoplasticity of sand with intergranular strain.\n\nCommands:\n",
       stream);
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
-    fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].purpose);
+    fprintf(stream, "  %-11s %s\n", commands[i].name, commands[i].purpose);
   fputs(
       "\n'hypofab COMMAND --help' explains a command, with examples; 'hypofab --version' prints the version.\n"
       "Exit codes: 0 done, 1 stopped early (results so far are written), 2 bad input, 3 internal error.\n",

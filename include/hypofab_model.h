@@ -134,6 +134,8 @@ typedef enum hypofab_branch {
  * @param stretching D, six tensor components [1/time]
  * @param rate      filled: rates of stress, delta and void ratio [per time]
  * @param branch    filled with the branch taken, unless NULL
+ * @return HYPOFAB_BAD_ARGUMENT where D is not finite, HYPOFAB_BAD_STATE where delta is not or |delta| > R,
+ *         HYPOFAB_OUT_OF_DOMAIN where the stress or the void ratio is; then nothing is filled
  */
 hypofab_status hypofab_rate(const hypofab_material *material, const hypofab_state *state, const double stretching[6],
                             hypofab_state *rate, hypofab_branch *branch);

@@ -50,6 +50,8 @@ module umat_capi
   type(sand_type), target, protected :: sand_table(n_sands) = sands
 
   character(len=*), parameter :: domain_message = 'a principal stress became tensile or zero, or the void ratio left (0, inf)'
+  character(len=*), parameter :: state_message = &
+                                 'state is not finite or has |delta| > R, expected finite stress, delta and void_ratio'
 
   interface
     !> base/message.h
@@ -148,7 +150,7 @@ contains
     else if (.not. in_domain(m, state%stress, state%void_ratio)) then
       status = fail(status_bad_state, 'stress has a tensile or zero principal value, expected all three compressive'// &
                     merge(' (of T - p_t 1)', '               ', m%p_t > 0.0_c_double))
-    else if (m%intergranular .and. norm(state%delta) > slack_of_delta * m%R) then
+    else if (.not. delta_within_bound(m, state%delta)) then
       write (value, '(g0.6)') norm(state%delta)
       write (bound, '(g0.6)') m%R
       status = fail(status_bad_state, '|delta| = '//trim(value)//' is not admissible, expected |delta| <= R = '// &
@@ -167,6 +169,13 @@ contains
     integer :: taken
 
     m = material_from_props(props)
+    if (.not. all(ieee_is_finite(stretching))) then
+      status = fail(status_bad_argument, 'stretching is not finite, expected six finite numbers')
+      return
+    else if (.not. delta_within_bound(m, state%delta)) then
+      status = fail(status_bad_state, state_message)
+      return
+    end if
     call state_rate(m, state_type(state%stress, state%delta, state%void_ratio), stretching, r, taken, status)
     if (status /= status_ok) then
       status = fail(status, domain_message)
@@ -247,13 +256,22 @@ contains
     case (status_bad_argument)
       status = fail(status, 'strain increment is not finite or above 1, expected six finite numbers up to 1')
     case (status_bad_state)
-      status = fail(status, 'state is not finite or has |delta| > R, expected finite stress, delta and void_ratio')
+      status = fail(status, state_message)
     case (status_step_limit)
       status = fail(status, 'the bound on rate evaluations was reached before the end of the strain increment')
     case default
       status = fail(status, domain_message)
     end select
   end function update
+
+  !> Is delta finite and within the bound |delta| <= R, up to rounding? Any delta is where the model has none.
+  pure function delta_within_bound(m, delta) result(within)
+    type(material_type), intent(in) :: m
+    real(c_double), intent(in) :: delta(6)
+    logical :: within
+    within = .not. m%intergranular
+    if (.not. within) within = all(ieee_is_finite(delta)) .and. norm(delta) <= slack_of_delta * m%R
+  end function delta_within_bound
 
   pure function friction_angle_c(stress) result(phi) bind(C, name='hypofab_friction_angle')
     real(c_double), intent(in) :: stress(6)

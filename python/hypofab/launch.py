@@ -27,7 +27,7 @@ def packaged_program() -> Path | None:
 def with_python_commands(text: str) -> str:
     """The program's help, which lists its own commands, with those of Python behind them: what shells complete, too."""
     own, blank, rest = text.rpartition("\n\n")
-    return own + "".join(f"\n  {name:<11}{purpose}" for name, purpose in PYTHON_COMMANDS.items()) + blank + rest
+    return own + "".join(f"\n  {name:<11} {purpose}" for name, purpose in PYTHON_COMMANDS.items()) + blank + rest
 
 
 def main() -> int:

@@ -194,6 +194,30 @@ static void test_outside_the_domain(void **unused) {
   }
 }
 
+static void test_what_is_not_finite_or_beyond_R_is_refused(void **unused) {
+  (void)unused;
+  hypofab_material material;
+  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  const double nan = (double)NAN, stretching[6] = {0, 0, -1, 0, 0, 0};
+  const hypofab_state good = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7}, untouched = {{1}, {2}, 3};
+  hypofab_state rate = untouched;
+  for (int i = 0; i < 6; ++i) {
+    double bad[6] = {0, 0, -1, 0, 0, 0};
+    bad[i] = i % 2 ? nan : INFINITY;
+    assert_int_equal(hypofab_rate(&material, &good, bad, &rate, NULL), HYPOFAB_BAD_ARGUMENT);
+    assert_non_null(strstr(hypofab_last_message(), "stretching"));
+    hypofab_state state = good;
+    state.delta[i] = i % 2 ? nan : 2.0 * material.R;
+    assert_int_equal(hypofab_rate(&material, &state, stretching, &rate, NULL), HYPOFAB_BAD_STATE);
+    assert_non_null(strstr(hypofab_last_message(), "delta"));
+    hypofab_material plain = material; /* without intergranular strain delta says nothing */
+    plain.m_R = 0.0;
+    hypofab_state found;
+    assert_int_equal(hypofab_rate(&plain, &state, stretching, &found, NULL), HYPOFAB_OK);
+  }
+  assert_memory_equal(&rate, &untouched, sizeof rate);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_reference_rates),
@@ -204,6 +228,7 @@ int main(void) {
       cmocka_unit_test(test_isotropic_normal_compression_follows_bauer),
       cmocka_unit_test(test_critical_state_is_stationary),
       cmocka_unit_test(test_outside_the_domain),
+      cmocka_unit_test(test_what_is_not_finite_or_beyond_R_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
