@@ -7,6 +7,7 @@ module HYPOFAB_BATCH_SHORT
   use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
   use umat_batch_lanes
   use umat_border, only: reach_of_border
+  use umat_from_zero, only: from_zero_type, from_zero, terms
   use umat_lobatto, only: rule_long
   use umat_material, only: material_type
   use umat_short_leg, only: order, farthest, longest_plain, c1, c2, to_end, to_node, of_square, quadrature
@@ -25,6 +26,7 @@ module HYPOFAB_BATCH_SHORT
     real(wp) :: delta(width, 6)
     real(wp) :: fall(width) !< how the powers of the operands fall at least
     real(wp) :: error(width) !< of delta, relative to R
+    real(wp) :: from_zero(width) !< 1 where delta starts from zero, otherwise 0
   end type operands_type
 
 contains
@@ -39,10 +41,13 @@ contains
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     type(operands_type) :: o
+    type(from_zero_type) :: series
     integer :: b
+    if (m%intergranular) series = from_zero(m)
     do b = 0, n - 1, width
       if (m%intergranular) then
         call follow_delta(m, b, lanes, tags, o)
+        if (any(o%from_zero > half)) call follow_from_zero(m, series, b, lanes, o)
       else
         call plain_operands(b, lanes, o)
       end if
@@ -81,6 +86,7 @@ contains
       end do
       u = chosen(straight, u, max(0.0_wp, u))
     square = u**2 + (normal(1)**2 + normal(2)**2 + normal(3)**2 + 2.0_wp * (normal(4)**2 + normal(5)**2 + normal(6)**2))
+      o%from_zero(i) = merge(0.0_wp, 1.0_wp - straight, square > 0.0_wp)
       rho = sqrt(square)
       o%error(i) = merge(0.0_wp, huge(rho), length <= farthest * rho)
       ! Where the leg is not short the series of a larger delta is of no use, but harmless.
@@ -173,6 +179,62 @@ contains
       end do
     end do
   end subroutine follow_delta
+
+  !> The same in lanes where delta starts from zero; follow_from_zero in short_leg.f90. Other lanes stay as they are.
+  pure subroutine follow_from_zero(m, series, b, lanes, o)
+    type(material_type), intent(in) :: m
+    type(from_zero_type), intent(in) :: series
+    integer, intent(in) :: b
+    real(wp), intent(in) :: lanes(n_lanes, n_fields)
+    type(operands_type), intent(inout) :: o
+    real(wp) :: length, log_length, s, rho_chi, last, rho, mean, moment, error, place, weight, on_along
+    real(wp) :: R, inverse_R, beta_r, chi, m_R
+    integer :: i, j, k
+    R = m%R
+    inverse_R = 1.0_wp / R
+    beta_r = m%beta_r
+    chi = m%chi
+    m_R = m%m_R
+    !GCC$ ivdep
+    do i = 1, width
+      length = lanes(b + i, l_length) * inverse_R
+      log_length = log(min(farthest, max(length, tiny_size)))
+      s = exp(beta_r * log_length)
+      rho_chi = exp(chi * log_length)
+      rho = series%rho(terms)
+      mean = series%mean(terms)
+      moment = series%moment(terms)
+      last = 1.0_wp / (1.0_wp - s)
+      !GCC$ unroll 12
+      do k = terms - 1, 0, -1
+        rho = series%rho(k) + s * rho
+        mean = series%mean(k) + s * mean
+        moment = series%moment(k) + s * moment
+        last = s * last
+      end do
+      mean = rho_chi * mean
+      moment = rho_chi * moment
+      error = last * (length * abs(series%rho(terms)) + rho_chi * abs(series%mean(terms)))
+      o%error(i) = chosen(o%from_zero(i), merge(error, huge(error), length <= farthest), o%error(i))
+      o%fall(i) = chosen(o%from_zero(i), 0.0_wp, o%fall(i))
+      !GCC$ unroll 3
+      do k = 0, 2
+        place = merge(0.0_wp, merge(c1, c2, k == 1), k == 0)
+        weight = place * (18.0_wp * mean - 24.0_wp * moment + place * (36.0_wp * moment - 24.0_wp * mean))
+        weight = lanes(b + i, l_length) * weight
+        on_along = lanes(b + i, l_length) * m_R + weight * (1.0_wp - m_R)
+        o%weight(i, k) = chosen(o%from_zero(i), weight, o%weight(i, k))
+        !GCC$ unroll 6
+        do j = 1, 6
+          o%x(i, j, k) = chosen(o%from_zero(i), on_along * lanes(b + i, l_along - 1 + j), o%x(i, j, k))
+        end do
+      end do
+      !GCC$ unroll 6
+      do j = 1, 6
+        o%delta(i, j) = chosen(o%from_zero(i), R * length * rho * lanes(b + i, l_along - 1 + j), o%delta(i, j))
+      end do
+    end do
+  end subroutine follow_from_zero
 
   !> Value of a series.
   pure function value_of(series, place) result(value)

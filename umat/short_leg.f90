@@ -7,6 +7,7 @@
 !> The update of many points side by side (batch_short.F90) takes the same step.
 module umat_short_leg
   use umat_collocation, only: start_type
+  use umat_from_zero, only: from_zero_type, from_zero, terms
   use umat_intergranular, only: share_of
   use umat_kinds, only: wp
   use umat_leg, only: leg_type, void_ratio_at
@@ -121,6 +122,11 @@ contains
     normal = delta_0 / m%R - u * leg%direction
     if (loading) u = max(0.0_wp, u)
     rho = sqrt(u**2 + ddot(normal, normal))
+    if (loading .and. .not. rho > 0.0_wp) then
+      call follow_from_zero(m, leg, x, weight, delta, error)
+      fall = 0.0_wp
+      return
+    end if
     if (length > farthest * rho) return
     if (loading .and. rho > 1.0_wp) then
       u = u / rho
@@ -135,6 +141,34 @@ contains
     call operands_at(m, leg, s, normal, c1, x(:, 1), weight(1))
     call operands_at(m, leg, s, normal, c2, x(:, 2), weight(2))
   end subroutine follow_delta
+
+  !> The same where delta starts from zero; theory.md Eqs. (17c). rho^chi is no polynomial there: at the nodes stands the parabola
+  !> through zero that has its integral, and the integral of its product with the place.
+  pure subroutine follow_from_zero(m, leg, x, weight, delta, error)
+    type(material_type), intent(in) :: m
+    type(leg_type), intent(in) :: leg
+    real(wp), intent(out) :: x(6, 0:2), weight(0:2), delta(6), error
+    type(from_zero_type) :: series
+    real(wp) :: length, s, rho_chi, last, mean, moment
+    integer :: k
+    real(wp), parameter :: place(0:2) = [0.0_wp, c1, c2]
+    delta = 0.0_wp
+    error = huge(error)
+    length = leg%length / m%R
+    if (length > farthest) return
+    series = from_zero(m)
+    s = length**m%beta_r
+    rho_chi = length**m%chi
+    last = s**terms / (1.0_wp - s)
+    error = last * (length * abs(series%rho(terms)) + rho_chi * abs(series%mean(terms)))
+    delta = m%R * length * value_of(series%rho, s) * leg%direction
+    mean = rho_chi * value_of(series%mean, s)
+    moment = rho_chi * value_of(series%moment, s)
+    do k = 0, 2
+weight(k) = leg%length * place(k) * (18.0_wp * mean - 24.0_wp * moment + place(k) * (36.0_wp * moment - 24.0_wp * mean))
+      x(:, k) = (leg%length * m%m_R + weight(k) * (1.0_wp - m%m_R)) * leg%direction
+    end do
+  end subroutine follow_from_zero
 
   !> The path of delta as a power series; theory.md Eqs. (17b).
   !> @param length of the leg, over R
@@ -201,11 +235,11 @@ contains
 
   !> Value of a series.
   pure function value_of(series, place) result(value)
-    real(wp), intent(in) :: series(0:order), place
+    real(wp), intent(in) :: series(0:), place
     real(wp) :: value
     integer :: k
-    value = series(order)
-    do k = order - 1, 0, -1
+    value = series(ubound(series, 1))
+    do k = ubound(series, 1) - 1, 0, -1
       value = series(k) + place * value
     end do
   end function value_of

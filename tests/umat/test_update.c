@@ -15,6 +15,39 @@
 /* clang-format on */
 
 /*
+ * Short increments from delta = 0 take two evaluations. delta against the closed form of rho' = 1 - rho^beta_r for two
+ * exponents, stress against the update at a tolerance that has no use for them.
+ */
+static void test_short_increments_from_zero_delta(void **unused) {
+  (void)unused;
+  const double chis[] = {1.0, 2.5, 6.0, 10.0}, lengths[] = {1e-8, 1e-6, 1e-5, 3e-5};
+  const double direction[6] = {-0.7, 0.2, 0.1, 0.3, -0.2, 0.1};
+  for (int exact = 0; exact < 2; exact++)
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) {
+        hypofab_material material;
+        assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+        material.beta_r = exact ? 1.0 : 0.5;
+        material.chi = chis[i];
+        double strain[6];
+        for (int k = 0; k < 6; k++) strain[k] = lengths[j] / tensor_norm(direction) * direction[k];
+        const hypofab_state start = {.stress = {-100.0, -150.0, -80.0, 10.0, -5.0, 20.0}, .void_ratio = 0.7};
+        hypofab_state quick = start, slow = start;
+        hypofab_update_report report;
+        const hypofab_update_options tight = {.tolerance = 1e-11};
+        assert_int_equal(hypofab_update(&material, NULL, &quick, strain, NULL, &report), HYPOFAB_OK);
+        assert_int_equal(report.evaluations, 2);
+        assert_int_equal(hypofab_update(&material, &tight, &slow, strain, NULL, &report), HYPOFAB_OK);
+        assert_true(tensor_distance(quick.stress, slow.stress) < 1e-6 * tensor_norm(slow.stress));
+        const double rho = tensor_norm(quick.delta) / material.R;
+        const double length = exact ? -log1p(-rho) : -2.0 * (sqrt(rho) + log1p(-sqrt(rho)));
+        assert_true(fabs(length - lengths[j] / material.R) < 1e-9);
+        for (int k = 0; k < 6; k++)
+          assert_true(fabs(quick.delta[k] - rho * material.R * strain[k] / lengths[j]) < 1e-12 * material.R);
+      }
+}
+
+/*
  * delta after a leg, by the classical Runge-Kutta method with very many steps of the scalar form of its evolution in
  * the plane of delta and the strain: independent of the library and of the reference file.
  */
@@ -261,6 +294,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_reference_paths),
       cmocka_unit_test(test_delta_is_exact),
+      cmocka_unit_test(test_short_increments_from_zero_delta),
       cmocka_unit_test(test_additive),
       cmocka_unit_test(test_objective),
       cmocka_unit_test(test_void_ratio_and_bound_of_delta),
