@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import numpy as np
 from common import options
 from common.folder import fail
-from common.sample import start_run, write_sample
+from common.sample import dimension_of, start_run, write_sample
 from common.simulation import Simulation, Stage
 
 
@@ -21,22 +21,29 @@ def parse() -> tuple[argparse.Namespace, dict]:
     top = options.parser(__doc__)
     top.add_argument("--sample", required=True, help="folder of a finished preparation")
     top.add_argument(
-        "--stress", type=float, nargs="+", required=True, help="along x, y (and z), compression positive [kPa]"
+        "--stress",
+        type=options.positive,
+        nargs="+",
+        required=True,
+        help="along x, y (and z), compression positive [kPa]",
     )
-    top.add_argument("--duration", type=float, default=300.0, help="of the path, in inertial times d sqrt(rho/p)")
-    top.add_argument("--quiet", type=float, default=1e-4, help="unbalanced force of the final state")
+    top.add_argument(
+        "--duration", type=options.positive, default=300.0, help="of the path, in inertial times d sqrt(rho/p)"
+    )
+    top.add_argument("--quiet", type=options.positive, default=1e-4, help="unbalanced force of the final state")
     return options.parse(top)
 
 
 def main() -> None:
     """Consolidate one sample."""
     opt, parameters = parse()
+    dimension = dimension_of(opt.sample)
+    if len(opt.stress) != dimension:
+        fail(f"--stress has {len(opt.stress)} values, but the sample {opt.sample} has {dimension} dimensions")
     simulation = start_run("consolidate", opt, parameters)
     if simulation is None:
         return
-    folder, dimension = simulation.folder, simulation.material.dimension
-    if len(opt.stress) != dimension:
-        fail(f"--stress has {len(opt.stress)} values, but the sample {opt.sample} has {dimension} dimensions")
+    folder = simulation.folder
     start = simulation.initial_stress
     goal = [-1e3 * s for s in opt.stress] + [None] * (3 - dimension)
     time_unit = simulation.material.inertial_time(1e3 * max(opt.stress))

@@ -36,21 +36,19 @@ COLUMNS = [
 FORMATS = ["%d", "%d", "%.6e", "%.6e", "%.5g", "%.5g", "%.6f", "%.5f", "%.5f", "%.6f", "%.6e", "%.1e"]
 
 
-def numbers(text: str) -> list[int]:
-    """A list of cycle numbers."""
-    return [int(word) for word in text.split(",") if word]
-
-
 def parse() -> tuple[argparse.Namespace, dict]:
     """The options of this script."""
     top = options.parser(__doc__)
     top.add_argument(
         "--sample", required=True, help="folder of a finished preparation or consolidation, two-dimensional"
     )
-    top.add_argument("--amplitude", type=float, default=0.04, help="growth of t over s'")
-    top.add_argument("--cycles", type=int, default=100)
-    top.add_argument("--duration", type=float, default=25.0, help="of half a cycle, in inertial times d sqrt(rho/p)")
-    top.add_argument("--snapshots", type=numbers, default=[], metavar="CYCLE,...", help="cycles with contact lists")
+    top.add_argument("--amplitude", type=options.positive, default=0.04, help="growth of t over s'")
+    top.add_argument("--cycles", type=options.whole(1), default=100)
+    top.add_argument(
+        "--duration", type=options.positive, default=25.0, help="of half a cycle, in inertial times d sqrt(rho/p)"
+    )
+    cycles = options.ascending(options.whole(0))
+    top.add_argument("--snapshots", type=cycles, default=[], metavar="CYCLE,...", help="cycles with contact lists")
     return options.parse(top)
 
 

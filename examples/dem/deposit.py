@@ -44,9 +44,11 @@ def parse() -> tuple[argparse.Namespace, dict]:
     )
     top.add_argument("--method", choices=("gravity", "layers", "isotropic"), default="gravity")
     top.add_argument("--shape", choices=("disc", "clump"), default="clump", help="clump: two discs, aspect ratio 0.6")
-    top.add_argument("--layer-void-ratio", type=float, default=0.25, help="to which a layer is pressed")
-    top.add_argument("--aspect", type=float, default=1.0, help="final height over width, roughly")
-    top.add_argument("--gravity-pressure", type=float, default=0.3, help="weight of the sample over pressure")
+    top.add_argument("--layer-void-ratio", type=options.positive, default=0.25, help="to which a layer is pressed")
+    top.add_argument("--aspect", type=options.positive, default=1.0, help="final height over width, roughly")
+    top.add_argument(
+        "--gravity-pressure", type=options.positive, default=0.3, help="weight of the sample over pressure"
+    )
     return options.parse(top)
 
 

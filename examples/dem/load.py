@@ -13,14 +13,10 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 from common import export, options
-from common.sample import start_run
+from common.folder import fail
+from common.sample import dimension_of, start_run
 from common.simulation import Simulation, Stage
 from yade import O
-
-
-def fractions(text: str) -> list[float]:
-    """A list of strains, in per cent."""
-    return [float(word) / 100 for word in text.split(",") if word]
 
 
 def parse() -> tuple[argparse.Namespace, dict]:
@@ -28,17 +24,22 @@ def parse() -> tuple[argparse.Namespace, dict]:
     top = options.parser(__doc__)
     top.add_argument("--sample", required=True, help="folder of a finished preparation")
     top.add_argument("--axis", choices=("x", "y", "z"), default="y")
-    top.add_argument("--strain", type=float, default=0.1, help="axial compression at the end")
-    top.add_argument("--inertial-number", type=float, default=6e-4, help="sets the rate of loading")
-    top.add_argument("--slow", type=float, default=8e-5, help="inertial number at small strain")
-    top.add_argument("--slow-until", type=float, default=0.002, help="axial strain at which loading speeds up")
-    top.add_argument("--snapshots", type=fractions, default=[], metavar="PERCENT,...", help="strains of contact lists")
+    top.add_argument("--strain", type=options.positive, default=0.1, help="axial compression at the end")
+    top.add_argument("--inertial-number", type=options.positive, default=6e-4, help="sets the rate of loading")
+    top.add_argument("--slow", type=options.positive, default=8e-5, help="inertial number at small strain")
+    top.add_argument(
+        "--slow-until", type=options.positive, default=0.002, help="axial strain at which loading speeds up"
+    )
+    strains = options.ascending(lambda word: options.not_negative(word) / 100)
+    top.add_argument("--snapshots", type=strains, default=[], metavar="PERCENT,...", help="strains of contact lists")
     return options.parse(top)
 
 
 def main() -> None:
     """Load one sample."""
     opt, parameters = parse()
+    if opt.axis == "z" and dimension_of(opt.sample) == 2:
+        fail(f"--axis z: the sample {opt.sample} has two dimensions; expected x or y")
     simulation = start_run("load", opt, parameters)
     if simulation is None:
         return

@@ -25,8 +25,13 @@ from common.simulation import Simulation, Stage
 
 def lateral_ratio(text: str) -> str:
     """Check --lateral."""
-    if text != "iso" and not math.isfinite(float(text)):
-        raise ValueError(text)
+    if text != "iso":
+        try:
+            valid = math.isfinite(float(text))
+        except ValueError:
+            valid = False
+        if not valid:
+            raise argparse.ArgumentTypeError(f"{text}: expected iso or a number")
     return text
 
 

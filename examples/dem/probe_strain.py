@@ -43,11 +43,15 @@ def parse() -> tuple[argparse.Namespace, dict]:
     """The options of this script."""
     top = options.parser(__doc__)
     top.add_argument("--sample", required=True, help="folder of a finished preparation in a periodic cell")
-    top.add_argument("--size", type=float, default=2e-4, help="norm of the strain of a probe")
-    top.add_argument("--directions", type=int, default=24)
-    top.add_argument("--duration", type=float, default=15.0, help="of a probe, in inertial times d sqrt(rho/p)")
-    top.add_argument("--quiet", type=float, default=1e-5, help="unbalanced force before the probes")
-    top.add_argument("--cycle", type=float, default=5e-4, help="shear strain applied and taken back first; 0: none")
+    top.add_argument("--size", type=options.positive, default=2e-4, help="norm of the strain of a probe")
+    top.add_argument("--directions", type=options.whole(1), default=24)
+    top.add_argument(
+        "--duration", type=options.positive, default=15.0, help="of a probe, in inertial times d sqrt(rho/p)"
+    )
+    top.add_argument("--quiet", type=options.positive, default=1e-5, help="unbalanced force before the probes")
+    top.add_argument(
+        "--cycle", type=options.not_negative, default=5e-4, help="shear strain applied and taken back first; 0: none"
+    )
     return options.parse(top)
 
 

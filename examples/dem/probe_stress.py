@@ -21,6 +21,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 from common import export, options
+from common.folder import fail
 from common.probing import clear, run_probes, save_base
 from common.sample import finished_manifest, start_run
 from common.simulation import Simulation, Stage
@@ -46,16 +47,27 @@ def parse() -> tuple[argparse.Namespace, dict]:
     """The options of this script."""
     top = options.parser(__doc__)
     top.add_argument("--sample", required=True, help="folder of a finished isotropic preparation, three-dimensional")
-    top.add_argument("--lode", type=float, default=0.0, help="Lode angle [deg]: 0 compression, 60 extension")
-    top.add_argument("--failure", type=float, default=5e-3, help="unbalanced force that tells failure")
-    top.add_argument("--back", type=float, default=0.005, help="share of the deviator taken back, again while it flows")
-    top.add_argument("--size", type=float, default=0.1, help="norm of a stress increment [kPa]")
-    top.add_argument("--directions", type=int, default=26)
-    top.add_argument("--duration", type=float, default=500.0, help="of shearing by q = p, in inertial times")
-    top.add_argument("--probe-duration", type=float, default=4.0, help="of loading, in inertial times d sqrt(rho/p)")
-    top.add_argument("--quiet", type=float, default=1e-5, help="unbalanced force before the probes")
+    top.add_argument(
+        "--lode", type=options.number(-360.0, 360.0), default=0.0, help="Lode angle [deg]: 0 compression, 60 extension"
+    )
+    top.add_argument("--failure", type=options.positive, default=5e-3, help="unbalanced force that tells failure")
+    top.add_argument(
+        "--back",
+        type=options.number(0.0, 1.0, above=True),
+        default=0.005,
+        help="share of the deviator taken back, again while it flows",
+    )
+    top.add_argument("--size", type=options.positive, default=0.1, help="norm of a stress increment [kPa]")
+    top.add_argument("--directions", type=options.whole(1), default=26)
+    top.add_argument("--duration", type=options.positive, default=500.0, help="of shearing by q = p, in inertial times")
+    top.add_argument(
+        "--probe-duration", type=options.positive, default=4.0, help="of loading, in inertial times d sqrt(rho/p)"
+    )
+    top.add_argument("--quiet", type=options.positive, default=1e-5, help="unbalanced force before the probes")
     after = top.add_mutually_exclusive_group()
-    after.add_argument("--tangent", type=float, help="increment before the probes, to larger Lode angles [kPa]")
+    after.add_argument(
+        "--tangent", type=options.number(-1e6, 1e6), help="increment before the probes, to larger Lode angles [kPa]"
+    )
     after.add_argument("--tangent-to", metavar="FOLDER", help="run whose stress is gone to before the probes")
     return options.parse(top)
 
@@ -79,8 +91,13 @@ def sphere(number: int) -> np.ndarray:
 def main() -> None:
     """Shear and probe one sample."""
     opt, parameters = parse()
+    tangent_goal: list[float] = []
     if opt.tangent_to is not None:
         parameters["tangent_to"] = Path(opt.tangent_to).resolve().name
+        manifest = finished_manifest(opt.tangent_to, "--tangent-to")
+        if manifest["program"] != "probe_stress":
+            fail(f"--tangent-to {opt.tangent_to}: a run of {manifest['program']}; expected one of probe_stress")
+        tangent_goal = [1e3 * s for s in manifest["results"]["notes"]["stress of the probes [kPa]"]]
     simulation = start_run("probe_stress", opt, parameters, dimension=3)
     if simulation is None:
         return
@@ -109,8 +126,7 @@ def main() -> None:
         """Go on along the failure surface."""
         here = np.array(simulation.servo.target)
         if opt.tangent_to is not None:
-            notes = finished_manifest(opt.tangent_to, "--tangent-to")["results"]["notes"]
-            goal = np.array(notes["stress of the probes [kPa]"]) * 1e3
+            goal = np.array(tangent_goal)
         else:
             goal = here + 1e3 * opt.tangent * deviator(opt.lode + 90.0)
         simulation.notes["stress before the tangent [kPa]"] = [float(s) / 1e3 for s in here]

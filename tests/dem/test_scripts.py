@@ -27,9 +27,7 @@ def test_prepared_sample_carries_the_stress_in_its_contacts(sphere_sample: Path)
     described = run_json("describe", run.contacts, "--particles", run.particles, "--cell", cell(run.results["sides_m"]))
     assert described["contacts"] == run.results["contacts"]
     assert described["coordination_number"] == pytest.approx(run.results["coordination_number"])
-    stress = np.array(described["stress"]["tensor"])[:3] if "tensor" in described["stress"] else None
-    if stress is not None:
-        assert stress.ravel()[0] == pytest.approx(-1e5, rel=0.003)
+    assert np.diag(described["stress"]["total"]) == pytest.approx([-1e5] * 3, rel=0.003)
 
 
 def test_anisotropy_of_the_manifest_is_that_of_hypofab(sphere_sample: Path) -> None:
@@ -87,6 +85,24 @@ def test_folder_of_other_parameters_is_refused(yade: Yade, sphere_sample: Path) 
 def test_sample_that_does_not_exist_is_refused(yade: Yade, folder: Path) -> None:
     done = yade("load.py", "--out", folder / "none", "--sample", folder / "missing", code=2)
     assert "no such file" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("script", "words", "message"),
+    [
+        ("prepare.py", ["--particles", 0], "0: expected a whole number of at least 40"),
+        ("load.py", ["--sample", "SAMPLE", "--snapshots", "1,0.5"], "1,0.5: expected numbers that grow"),
+        ("consolidate.py", ["--sample", "SAMPLE", "--stress", 100], "1 values"),
+        ("probe_stress.py", ["--sample", "SAMPLE", "--tangent-to", "SAMPLE"], "expected one of probe_stress"),
+    ],
+)
+def test_bad_options_are_named_and_leave_nothing(
+    yade: Yade, sphere_sample: Path, folder: Path, script: str, words: list, message: str
+) -> None:
+    out = folder / "bad"
+    done = yade(script, "--out", out, *(sphere_sample if word == "SAMPLE" else word for word in words), code=2)
+    assert message in done.stderr
+    assert not out.exists()
 
 
 def test_stress_probes_at_failure(yade: Yade, sphere_sample: Path, folder: Path) -> None:

@@ -11,26 +11,29 @@ from common.material import Material
 from common.sample import write_sample
 from common.simulation import Simulation
 
+ANGLE = options.number(0.0, 90.0)
+"""Friction angles [deg]."""
+
 OPTIONS = {
-    "pressure": "final stress [kPa]",
-    "friction": "friction angle between particles [deg]",
-    "diameter": "3D: median diameter, 2D: mean one, of the disc of equal area [mm]",
-    "spread": "3D: d60/d10 of a log-normal law; 2D: largest over smallest diameter",
-    "stiffness": "3D: Young's modulus [kPa]; 2D: k_n/(1 m) [kPa]",
-    "stiffness-ratio": "k_s/k_n",
-    "damping": "numerical damping",
-    "inertial-number": "sets the rate of compression",
-    "quiet": "unbalanced force of the final state",
+    "pressure": (options.positive, "final stress [kPa]"),
+    "friction": (ANGLE, "friction angle between particles [deg]"),
+    "diameter": (options.positive, "3D: median diameter, 2D: mean one, of the disc of equal area [mm]"),
+    "spread": (options.number(1.0), "3D: d60/d10 of a log-normal law; 2D: largest over smallest diameter"),
+    "stiffness": (options.positive, "3D: Young's modulus [kPa]; 2D: k_n/(1 m) [kPa]"),
+    "stiffness-ratio": (options.not_negative, "k_s/k_n"),
+    "damping": (options.number(0.0, 1.0), "numerical damping"),
+    "inertial-number": (options.positive, "sets the rate of compression"),
+    "quiet": (options.positive, "unbalanced force of the final state"),
 }
 
 
 def parser(description: str, **defaults: float) -> options.Parser:
     """A parser with the options of all preparations; defaults by name, with _ in place of -."""
     top = options.parser(description, particles=2000)
-    for name, text in OPTIONS.items():
-        top.add_argument(f"--{name}", type=float, default=defaults[name.replace("-", "_")], help=text)
+    for name, (kind, text) in OPTIONS.items():
+        top.add_argument(f"--{name}", type=kind, default=defaults[name.replace("-", "_")], help=text)
     top.add_argument(
-        "--preparation-friction", type=float, help="friction angle while preparing [deg]; default: the same"
+        "--preparation-friction", type=ANGLE, help="friction angle while preparing [deg]; default: the same"
     )
     return top
 

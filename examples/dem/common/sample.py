@@ -50,6 +50,11 @@ def read_manifest(path: str) -> dict:
     return manifest
 
 
+def dimension_of(path: str) -> int:
+    """Of a sample: 2 or 3."""
+    return read_manifest(path)["results"]["material"]["dimension"]
+
+
 def sample_parameters(path: str) -> dict:
     """What the manifest of a run says of its sample: the name of the folder and the parameters of its preparation."""
     return {"sample": Path(path).resolve().name, "sample_parameters": read_manifest(path)["parameters"]}
@@ -61,14 +66,14 @@ def start_run(program: str, opt: argparse.Namespace, parameters: dict, **needs: 
     needs: numbers of the sample's manifest that this program depends on, as dimension=2 or boundary="periodic cell".
     """
     before = read_manifest(opt.sample)["results"]
-    folder = Folder(opt.out, program, parameters | sample_parameters(opt.sample))
-    if folder.finished:
-        print(f"{opt.out}: finished before")
-        return None
     found = {"dimension": before["material"]["dimension"], "boundary": before["boundary"]}
     for name, wanted in needs.items():
         if found[name] != wanted:
             fail(f"--sample {opt.sample}: its {name} is {found[name]}; {program} needs {wanted}")
+    folder = Folder(opt.out, program, parameters | sample_parameters(opt.sample))
+    if folder.finished:
+        print(f"{opt.out}: finished before")
+        return None
     simulation = load_sample(opt.sample, folder, opt.checkpoint)
     simulation.initial_stress = [1e3 * s for s in before["stress_kPa"]]
     return simulation

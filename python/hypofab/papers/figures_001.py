@@ -42,7 +42,7 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
             stress_panel(stress, index, fan.strain, scale * fan.stress, scale * matrix, label)
             change = np.array([snapshot["change"][:2] for snapshot in fan.changes["snapshots"]])
             closed = [*range(len(change)), 0]
-            fabric.plot(*change[closed].T, marker="o", markersize=3, **line_style(index))
+            fabric.plot(*change[closed].T, marker=MARKERS[index % 6], markersize=3, **line_style(index))
         for index, probes in enumerate(element):
             scale = element[0].size / probes.size
             matrix, error = probes.linear
@@ -59,7 +59,10 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
             axes.set_aspect("equal", adjustable="datalim")
         stress.legend(fontsize=7)
         sand.legend(fontsize=6, title="off the ellipse", title_fontsize=6, loc="lower right")
-        sand.margins(0.25)
+        low, high = sand.get_ylim()
+        extent = 1.3 * (high - low)  # room for the legend below
+        sand.set_aspect("equal", adjustable="box")
+        sand.set(xlim=(-extent / 2, extent / 2), ylim=(high - extent, high))
 
 
 def rates(fans: list[Fan], path: Path) -> None:
@@ -80,6 +83,8 @@ def rates(fans: list[Fan], path: Path) -> None:
                     panel.plot(fine, fan.law(mechanism, which, fine), **(style | {"linewidth": 1.0}))
                 name = {"dZ": r"$\Delta Z^*$", "dA": r"$\Delta A^*$"}[which]
                 panel.set(xlim=(0, 360), xticks=range(0, 361, 90), title=f"{name}, {mechanism}")
+                if column == 0:
+                    panel.set_ylabel("rate, per unit strain")
                 if row == 1:
                     panel.set_xlabel(r"direction $\alpha$ [deg]")
                 low, high = {"gain": (18.4, 71.6), "loss": (198.4, 251.6)}.get(mechanism, (0, 0))
@@ -148,6 +153,7 @@ def trends(fans: list[Fan], path: Path) -> None:
                 z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=f"a{index + 1}", **style
             )
         total.set_title("total, Eq. 19")
+        loss.set_ylabel("coefficients, per unit strain")
         for axes in (loss, gain, total):
             axes.set_xlabel("Z before the probes")
             axes.legend(fontsize=7)

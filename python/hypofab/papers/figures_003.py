@@ -19,7 +19,18 @@ if TYPE_CHECKING:
 
 Groups = dict[str, dict[str, "Test"]]
 
+LOW_PRESSURE = 300.0
+"""Tests that begin at a lower p' have open symbols where two groups share a panel [kPa]."""
+
 MARKERS = {"deposition": "o", "layers": "s", "isotropic": "^"}
+
+
+NAME_RIGHT = {"xytext": (4, 3), "textcoords": "offset points"}
+NAME_LEFT = {"xytext": (-4, 3), "textcoords": "offset points", "horizontalalignment": "right"}
+NAME_BESIDE = {"xytext": (5, -2), "textcoords": "offset points"}
+NAME_BELOW = {"xytext": (4, -8), "textcoords": "offset points"}
+NAME_PLACE = {"M07": NAME_LEFT, "M09": NAME_LEFT, "D04": NAME_LEFT, "I14": NAME_BESIDE, "I11": NAME_BELOW}
+"""Where names stand so that they do not cover each other in the figure of the peaks."""
 
 
 def style_of(test: Test) -> dict:
@@ -65,7 +76,7 @@ def peaks(tests: dict[str, Test], path: Path) -> None:
             seen.add(test.method)
             for axes, value in zip((ratio, dilatancy), test.peak(), strict=True):
                 axes.plot(a_n, value, label=label, **point_of(test))
-                axes.annotate(name, (a_n, value), fontsize=6, xytext=(3, 3), textcoords="offset points")
+                axes.annotate(name, (a_n, value), fontsize=6, **NAME_PLACE.get(name, NAME_RIGHT))
             middle, mean, rate = test.every(0.01)
             at = [int(np.argmin(np.abs(middle - strain))) for strain in (0.005, 0.025, 0.05, 0.075, 0.1, 0.125, 0.145)]
             rowe.plot(rate[at], mean[at], fillstyle="none", **(point_of(test) | {"markersize": 4}))
@@ -98,7 +109,8 @@ def microscopic(groups: Groups, path: Path) -> None:
                     style = style_of(test) | {"marker": MARKERS[test.method], "markersize": 4}
                     panel.plot(100 * test.strain, test.micro[key], label=f"{name}, {test.method}", **style)
                 bottom = 3 if key == "mechanical_coordination_number" else 0
-                panel.set(xlabel="axial strain [%]", ylabel=label, ylim=(bottom, None))
+                top = max(float(np.max(test.micro[key])) for test in group.values())
+                panel.set(xlabel="axial strain [%]", ylabel=label, ylim=(bottom, top + 0.05 * (top - bottom)))
             axes[4 * row].set_title(title)
             axes[4 * row].legend(fontsize=7)
 
@@ -127,12 +139,17 @@ def shares(one: Test, tests: dict[str, Test], path: Path) -> None:
             )
             eq9 = (test.micro["a_n"] + test.micro["a_f"] + test.micro["a_t"]) / 2
             for axes, key in zip(weights, ("a_n", "a_f", "a_t"), strict=True):
-                style = style_of(test) | {"marker": MARKERS[test.method], "markersize": 3, "linewidth": 1.0}
+                style = style_of(test) | {"marker": MARKERS[test.method], "markersize": 4, "linewidth": 1.0}
+                style["fillstyle"] = "full" if test.p[0] > LOW_PRESSURE else "none"
                 label = f"{test.sample.name}, {test.method}" if key == "a_n" else None
                 axes.plot(100 * test.strain[loaded], test.micro[key][loaded] / (2 * eq9[loaded]), label=label, **style)
                 axes.set(xlabel="axial strain [%]", title=f"weight of ${key}$", ylim=(0, 0.8))
         low, high = 0.0, 0.7
         all_sin.plot([low, high], [low, high], color="0.6", linewidth=0.8)
+        for method, marker in MARKERS.items():
+            label_style = {"marker": marker, "color": line_style((0, 1, 3)[list(MARKERS).index(method)])["color"]}
+            all_sin.plot([], [], linestyle="", label=method, **label_style)
+        all_sin.legend(fontsize=7, loc="upper left")
         all_sin.set(xlabel="sin(phi) of contact forces", ylabel="sin(phi), Eq. 8", xlim=(low, high), ylim=(low, high))
         weights[0].legend(fontsize=6, ncols=2)
 
@@ -157,7 +174,7 @@ def roses(group: dict[str, Test], path: Path) -> None:
                 a_n, phi_n = test.micro["a_n"][index], np.radians(test.micro["phi_n"][index])
                 axes.plot(theta, 1 + a_n * np.cos(2 * (theta - phi_n)), color="#D55E00", linewidth=1.2)
                 axes.set_title(f"{name}, {100 * test.strain[index]:.0f} %: $a_n$ = {a_n:.2f}", fontsize=8)
-                axes.set(xticklabels=[], yticks=[0.5, 1, 1.5], ylim=(0, 2.1))
+                axes.set(xticklabels=[], yticks=[1, 1.5], ylim=(0, 2.1))
                 axes.tick_params(labelsize=6)
         figure.savefig(path, dpi=110)
 

@@ -39,7 +39,7 @@ def _envelopes(axes: Axes, probes: dict[str, Failure] | dict[str, ElementProbes]
             for step in steps:
                 axes.plot(*np.stack([place, place + step]).T, color=color, linewidth=0.6)
             label = rf"$\theta$ = {paper_lode(name)}$^\circ$" if order == ORDERS[0] else None
-            axes.plot(*place, "o", color=color, markersize=4, label=label)
+            axes.plot(*place, "os^D"[index % 4] if label else "o", color=color, markersize=4, label=label)
     corners = np.array(sorted(points, key=lambda point: np.arctan2(*point)))
     axes.plot(*np.vstack([corners, corners[:1]]).T, color="0.4", linewidth=0.8, zorder=1)
     axes.plot(0, 0, "+", color="black")

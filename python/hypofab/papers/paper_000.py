@@ -124,9 +124,9 @@ def compare(runs: Path, out: Path) -> str:
                 _zoom(dem, curves, (0.42, 0.12, 0.4, 0.4))
                 _zoom(paper_c, element[0.05], (0.42, 0.12, 0.4, 0.4))
                 _zoom(fitted, element[fit.c], (0.42, 0.12, 0.4, 0.4))
-                for axes in (dem, paper_c, fitted):
-                    axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
-                    axes.legend(loc="upper right", ncols=2)
+            for axes in (dem, paper_c, fitted):
+                axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
+                axes.legend(loc="upper right" if not prefix else "upper left", ncols=2)
         if not prefix:
             surface(out / "000_fabric.png", samples)
             with draw.panels(out / "000_volumetric.png", 3) as (dem, paper_c, fitted):

@@ -118,7 +118,9 @@ def compare(runs: Path, out: Path) -> str:
             low, high = axes.get_xlim()[0], axes.get_xlim()[1]
             low, high = min(low, axes.get_ylim()[0]), max(high, axes.get_ylim()[1])
             axes.plot([low, high], [low, high], color="0.6", linewidth=0.8)
-            axes.set(xlabel="element test, over I (up: along y)", ylabel="DEM, over I", title=title)
+            axes.set(xlabel="element test, over I", ylabel="DEM, over I", title=title)
+        for marker, axis in (("^", "along y"), (">", "along x")):
+            fixed.plot([], [], marker, color="0.6", markersize=5, label=axis)
         fixed.legend(fontsize=7)
     free = fit_c(loadings, measured, corrected=True)
     without_noise = relative(members, secants(element_tests(loadings, free.c, corrected=True)))
