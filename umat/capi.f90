@@ -15,6 +15,7 @@ module umat_capi
   use umat_wolffersdorff, only: in_domain
   implicit none
   private
+  public :: c_state, domain_message, fail ! for the other half of the C face
 
   !> hypofab_parameter_info
   type, bind(C) :: c_parameter_info
@@ -49,6 +50,7 @@ module umat_capi
   type(parameter_type), target, protected :: parameter_table(n_parameters) = parameters
   type(sand_type), target, protected :: sand_table(n_sands) = sands
 
+  !> Messages that several procedures give.
   character(len=*), parameter :: domain_message = 'a principal stress became tensile or zero, or the void ratio left (0, inf)'
   character(len=*), parameter :: state_message = &
                                  'state is not finite or has |delta| > R, expected finite stress, delta and void_ratio'

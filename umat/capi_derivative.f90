@@ -1,6 +1,7 @@
 !> The C face of the derivatives of the rates: hypofab_sensitivity.h documents purposes, arguments and errors.
 module umat_capi_derivative
-  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char
+  use, intrinsic :: iso_c_binding, only: c_double, c_int
+  use umat_capi, only: c_state, domain_message, fail
   use umat_intergranular, only: intergranular_type, intergranular_direction
   use umat_material, only: material_type, material_from_props, n_parameters
   use umat_rate_derivative, only: rate_derivative_type, derive_rates
@@ -8,26 +9,12 @@ module umat_capi_derivative
   implicit none
   private
 
-  !> hypofab_state
-  type, bind(C) :: c_state
-    real(c_double) :: stress(6), delta(6), void_ratio
-  end type c_state
-
   !> hypofab_rate_derivatives: C stores rows first, and its first index is what is varied.
   type, bind(C) :: c_rate_derivatives
     real(c_double) :: stress_by_stretching(6, 6), stress_by_stress(6, 6), stress_by_delta(6, 6), stress_by_void_ratio(6)
     real(c_double) :: stress_by_parameter(6, n_parameters), delta_by_stretching(6, 6), delta_by_delta(6, 6)
     real(c_double) :: delta_by_parameter(6, n_parameters)
   end type c_rate_derivatives
-
-  interface
-    !> base/message.h
-    subroutine set_message(text, length) bind(C, name='hypofab_set_message')
-      import :: c_char, c_int
-      character(kind=c_char), intent(in) :: text(*)
-      integer(c_int), value :: length
-    end subroutine set_message
-  end interface
 
 contains
 
@@ -51,20 +38,11 @@ contains
     if (m%intergranular) g = intergranular_direction(m, state%delta)
     call derive_rates(m, state%stress, state%void_ratio, g, stretching, branch, r, status)
     if (status /= status_ok) then
-      status = fail(status, 'a principal stress became tensile or zero, or the void ratio left (0, inf)')
+      status = fail(status, domain_message)
       return
     end if
     derivatives = c_rate_derivatives(r%stress_by_stretching, r%stress_by_stress, r%stress_by_delta, r%stress_by_void_ratio, &
                                    r%stress_by_parameter, r%delta_by_stretching, r%delta_by_delta, r%delta_by_parameter)
   end function rate_derivatives_at
-
-  !> Keep a message for hypofab_last_message and return the status.
-  function fail(status, message) result(same)
-    integer, intent(in) :: status
-    character(len=*), intent(in) :: message
-    integer(c_int) :: same
-    call set_message(message, len(message, c_int))
-    same = int(status, c_int)
-  end function fail
 
 end module umat_capi_derivative
