@@ -19,35 +19,50 @@ from hypofab.results import Array
 if TYPE_CHECKING:
     from hypofab.papers.paper_001 import ElementFan, Fan
 
-MARKERS = "os^Dv*"
+MARKERS = "os^DvP"
 MECHANISMS = ("loss", "gain", "reorientation")
 
 
-def stress_panel(axes: Axes, index: int, strain: Array, stress: Array, matrix: Array, label: str) -> None:
-    """Stress responses as points, the ellipse of the linear map as a line."""
-    style = line_style(index)
+def looks(fans: list[Fan]) -> list[dict]:
+    """A line with marker for each sample: one per friction while preparing, open markers for further seeds."""
+    recipes = list(dict.fromkeys(fan.friction for fan in fans))
+    return [
+        line_style(recipes.index(fan.friction))
+        | {"marker": MARKERS[recipes.index(fan.friction) % 6], "fillstyle": "full" if fan.seed == 1 else "none"}
+        for fan in fans
+    ]
+
+
+def names(fans: list[Fan]) -> list[str]:
+    """Z of each sample, and its seed if that is not the first."""
+    return [f"Z = {fan.coordination:.2f}" + (f", seed {fan.seed}" if fan.seed != 1 else "") for fan in fans]
+
+
+def stress_panel(axes: Axes, style: dict, strain: Array, stress: Array, matrix: Array, label: str) -> None:
+    """Stress responses as points, the ellipse of the linear map as a line. style: of line and points."""
     angle = np.linspace(0, 2 * np.pi, 181)
-    axes.plot(*(matrix @ np.stack([np.cos(angle), np.sin(angle)]) * strain.mean()), **(style | {"linewidth": 1.0}))
-    axes.plot(*stress.T, MARKERS[index % 6], markersize=3.5, color=style["color"], label=label)
+    ellipse = matrix @ np.stack([np.cos(angle), np.sin(angle)]) * strain.mean()
+    axes.plot(*ellipse, **(style | {"linewidth": 1.0, "marker": ""}))
+    axes.plot(*stress.T, markersize=3.5, label=label, **(style | {"linestyle": ""}))
 
 
 def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
     """Figures 2 and 3: stress responses with the linear map's ellipse, of element tests too, and of the fabric."""
     with draw.panels(path, 3) as (stress, sand, fabric):
-        for index, fan in enumerate(fans):
+        for fan, look, label in zip(fans, looks(fans), names(fans), strict=True):
             stiffness = fan.run.results["material"]["stiffness"] / 1e3
             matrix, _ = fan.linear
-            label = f"Z = {fan.coordination:.2f}"
             scale = 1e4 / stiffness
-            stress_panel(stress, index, fan.strain, scale * fan.stress, scale * matrix, label)
+            stress_panel(stress, look, fan.strain, scale * fan.stress, scale * matrix, label)
             change = np.array([snapshot["change"][:2] for snapshot in fan.changes["snapshots"]])
             closed = [*range(len(change)), 0]
-            fabric.plot(*change[closed].T, marker=MARKERS[index % 6], markersize=3, **line_style(index))
+            fabric.plot(*change[closed].T, markersize=3, **(look | {"linewidth": 1.0}))
         for index, probes in enumerate(element):
             scale = element[0].size / probes.size
             matrix, error = probes.linear
             label = f"{probes.title}: {100 * error:.1f} %"
-            stress_panel(sand, index, np.full(1, element[0].size), scale * probes.stress, matrix, label)
+            style = line_style(index) | {"marker": MARKERS[index % 6]}
+            stress_panel(sand, style, np.full(1, element[0].size), scale * probes.stress, matrix, label)
         stress.set(
             xlabel=r"$10^4\,\Delta\sigma_{xx}/k_n$", ylabel=r"$10^4\,\Delta\sigma_{yy}/k_n$", title="DEM, stress"
         )
@@ -57,7 +72,7 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
         fabric.set(xlabel=r"$\Delta F_{xx}$", ylabel=r"$\Delta F_{yy}$", title="DEM, fabric")
         for axes in (stress, sand, fabric):
             axes.set_aspect("equal", adjustable="datalim")
-        stress.legend(fontsize=7)
+        stress.legend(fontsize=5.5, loc="center", labelspacing=0.2, handletextpad=0.2)
         sand.legend(fontsize=6, title="off the ellipse", title_fontsize=6, loc="lower right")
         low, high = sand.get_ylim()
         extent = 1.3 * (high - low)  # room for the legend below
@@ -75,12 +90,10 @@ def rates(fans: list[Fan], path: Path) -> None:
                 if (mechanism, which) == ("reorientation", "dZ"):
                     panel.set_axis_off()  # zero by definition
                     continue
-                for index, fan in enumerate(fans):
-                    style = line_style(index)
-                    label = f"Z = {fan.coordination:.2f}"
-                    points = {"marker": MARKERS[index % 6], "linestyle": "", "markersize": 3, "color": style["color"]}
+                for fan, look, label in zip(fans, looks(fans), names(fans), strict=True):
+                    points = look | {"linestyle": "", "markersize": 3}
                     panel.plot(fan.alpha, fan.rate(mechanism, which), label=label, **points)
-                    panel.plot(fine, fan.law(mechanism, which, fine), **(style | {"linewidth": 1.0}))
+                    panel.plot(fine, fan.law(mechanism, which, fine), **(look | {"linewidth": 1.0, "marker": ""}))
                 name = {"dZ": r"$\Delta Z^*$", "dA": r"$\Delta A^*$"}[which]
                 panel.set(xlim=(0, 360), xticks=range(0, 361, 90), title=f"{name}, {mechanism}")
                 if column == 0:
@@ -130,30 +143,39 @@ def roses(fans: list[Fan], path: Path) -> None:
         figure.savefig(path, dpi=110)
 
 
+def _trend(axes: Axes, fans: list[Fan], values: list[tuple[float, float]], index: int, label: str) -> None:
+    """One coefficient over Z: samples of the first seed with full markers and a line, others with open ones."""
+    for first in (True, False):
+        at = [i for i, fan in enumerate(fans) if (fan.seed == 1) == first]
+        style = {key: line_style(index)[key] for key in ("color", "linestyle")}
+        style |= {} if first else {"linestyle": "", "fillstyle": "none"}
+        axes.errorbar(
+            [fans[i].coordination for i in at],
+            [values[i][0] for i in at],
+            [values[i][1] for i in at],
+            marker=MARKERS[index],
+            markersize=5,
+            capsize=2,
+            label=label if first else None,
+            **style,
+        )
+
+
 def trends(fans: list[Fan], path: Path) -> None:
     """Figures 7 and 8: characteristic rates and a1 to a5 over Z, with standard errors."""
-    z = [fan.coordination for fan in fans]
     with draw.panels(path, 3) as (loss, gain, total):
         for axes, mechanism in ((loss, "loss"), (gain, "gain")):
             for index, name in enumerate(("dZ_extension", "dZ_shear", "dZ_compression", "E", "G")):
                 values = [fan.coefficient(mechanism, name) for fan in fans]
-                style = {key: line_style(index)[key] for key in ("color", "linestyle")}
-                label = name.replace("dZ_", "dZ*, ")
-                axes.errorbar(
-                    z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=label, **style
-                )
+                _trend(axes, fans, values, index, name.replace("dZ_", "dZ*, "))
             axes.set_title(mechanism)
         for index in range(5):
-            values = [
-                (fan.changes["response"]["a"][index]["value"], fan.changes["response"]["a"][index]["error"])
-                for fan in fans
-            ]
-            style = {key: line_style(index)[key] for key in ("color", "linestyle")}
-            total.errorbar(
-                z, [v for v, _ in values], [e for _, e in values], marker="o", capsize=2, label=f"a{index + 1}", **style
-            )
+            entries = [fan.changes["response"]["a"][index] for fan in fans]
+            _trend(total, fans, [(entry["value"], entry["error"]) for entry in entries], index, f"a{index + 1}")
         total.set_title("total, Eq. 19")
         loss.set_ylabel("coefficients, per unit strain")
         for axes in (loss, gain, total):
             axes.set_xlabel("Z before the probes")
-            axes.legend(fontsize=7)
+            low, high = axes.get_ylim()
+            axes.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
+            axes.legend(fontsize=7, loc="upper left", ncols=2)

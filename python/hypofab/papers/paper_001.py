@@ -38,6 +38,18 @@ class Fan:
         fabric = self.changes["fabric_before"]
         return fabric[0] + fabric[1]
 
+    @property
+    def friction(self) -> float:
+        """Friction angle while the sample was prepared [deg]."""
+        sample = self.run.parameters["sample_parameters"]
+        given = sample["preparation_friction"]
+        return sample["friction"] if given is None else given
+
+    @property
+    def seed(self) -> int:
+        """Of the sample."""
+        return self.run.parameters["sample_parameters"]["seed"]
+
     def rate(self, mechanism: str, which: str) -> Array:
         """dZ* or dA* of a mechanism for each probe."""
         return np.array([snapshot[mechanism][which] for snapshot in self.changes["snapshots"]])
