@@ -62,7 +62,7 @@ static void start(int sand, int plain, double p_t, hypofab_material *material, h
 static void test_extension_and_back(void **unused) {
   (void)unused;
   double largest = 0.0;
-  for (int i = 0; i < 2 * 2 * N_SANDS * N_DIRECTIONS; i += PART > 1 ? 7 : 1) {
+  for (int i = 0; i < 2 * 2 * N_SANDS * N_DIRECTIONS; i += PART > 1 ? 13 : 1) {
     hypofab_material material;
     const int increments = i & 1 ? 100 : 1;
     const double p_t = i & 2 ? 2.0 : 0.0, *direction = directions[i / 4 % N_DIRECTIONS];
