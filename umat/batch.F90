@@ -25,7 +25,6 @@ module umat_batch
   use umat_material, only: material_type, material_from_props, n_parameters
   use umat_rate, only: state_type
   use umat_status, only: status_ok
-  use umat_lobatto, only: rule_short, rule_long
   use umat_update, only: options_type, report_type, update_state
   implicit none
   private
@@ -148,7 +147,7 @@ contains
       end do
       if (present(delta)) call load_delta(delta, finite)
       do k = 1, n
-        tags(k, t_rule) = rule_short
+        tags(k, t_short) = short_untried
         tags(k, t_kind) = kind_fixed
         tags(k, t_outcome) = merge(outcome_begin, outcome_special, finite(k))
       end do
@@ -205,7 +204,7 @@ contains
     subroutine try_short_legs()
       integer :: n_new
       do
-        n_new = partition(1, left, tags(:, t_rule) == rule_short)
+        n_new = partition(1, left, tags(:, t_short) == short_untried)
         if (n_new == 0) exit
         call fill_up(left)
         call attempt_short(n_new)
@@ -342,7 +341,7 @@ contains
           lanes(k, l_done) = 0.0_wp
           tags(k, t_kind) = kind_plane
           tags(k, t_outcome) = outcome_begin
-          tags(k, t_rule) = rule_short
+          tags(k, t_short) = short_untried
         else
           done = done + 1
           lane(done) = k

@@ -44,7 +44,8 @@ foreach(kernel ${kernels})
 endforeach()
 target_link_libraries(hypofab_batch PRIVATE hypofab_model hypofab_batch_lanes ${kernels})
 # CMake does not see that a part uses modules of another target: rebuild it when their sources change.
-set(used batch_lanes.f90 kinds.F90 status.f90 material.f90 lobatto.f90 delta_path.f90 wolffersdorff.f90 step.f90 integration.f90 short_leg.f90)
+set(used batch_lanes.f90 kinds.F90 status.f90 material.f90 lobatto.f90 delta_path.f90 border.f90 wolffersdorff.f90 step.f90
+         integration.f90 from_zero.f90 short_leg.f90)
 list(TRANSFORM used PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 set(kernel_sources ${kernel_parts})
 list(TRANSFORM kernel_sources REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/batch_\\1.F90")

@@ -33,10 +33,10 @@ module umat_batch_lanes
   integer, parameter :: l_speed = 39, l_node_along = 40, l_node_across = 41, l_rho_chi = 42, l_rho = 43, l_left = 44, l_decay = 45
   integer, parameter :: n_fields = 45
 
-  !> Tags: kind of path, as in delta_path.f90, and what became of an attempted step, and the rule of the
-  !> next (lobatto.f90). As wide as a field, so that they fill
-  !> masks without conversion.
-  integer, parameter :: t_kind = 1, t_outcome = 2, t_rule = 3, n_tags = 3
+  !> Tags: kind of path, as in delta_path.f90, what became of an attempted step, and whether the segment has been tried in one
+  !> step (batch_short.F90). As wide as a field, so that they fill masks without conversion.
+  integer, parameter :: t_kind = 1, t_outcome = 2, t_short = 3, n_tags = 3
+  integer(int64), parameter :: short_untried = 0_int64, short_tried = 1_int64
   integer(int64), parameter :: kind_fixed = 0_int64, kind_straight = 1_int64, kind_axis = 2_int64, kind_plane = 3_int64
   !> special: the scalar update must decide; begin: the segment is to begin.
   integer(int64), parameter :: outcome_going = 0_int64, outcome_segment_done = 1_int64, outcome_special = 2_int64, &

@@ -8,7 +8,6 @@ module HYPOFAB_BATCH_SHORT
   use umat_batch_lanes
   use umat_border, only: reach_of_border
   use umat_from_zero, only: from_zero_type, from_zero, terms
-  use umat_lobatto, only: rule_long
   use umat_material, only: material_type
   use umat_short_leg, only: order, farthest, longest_plain, c1, c2, to_end, to_node, of_square, quadrature
   use umat_step, only: most_share, part_of_pressure
@@ -339,7 +338,7 @@ contains
       lanes(b + i, l_evaluations) = lanes(b + i, l_evaluations) + accepted + &
                                     going * merge(1.0_wp, 0.0_wp, o%error(i) <= tolerance)
       tags(b + i, t_outcome) = merge(outcome_segment_done, tags(b + i, t_outcome), accepted > half)
-      tags(b + i, t_rule) = rule_long
+      tags(b + i, t_short) = short_tried
     end do
   end subroutine move_stress
 

@@ -4,7 +4,7 @@
 !> PROPS, a hypofab_state thirteen doubles: stress, delta, void ratio.
 module umat_capi
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_ptr, c_loc, c_f_pointer, c_associated, c_null_char
+  use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char, c_ptr, c_loc, c_null_char
   use umat_intergranular, only: intergranular_direction, delta_rate, slack_of_delta
   use umat_material, only: material_type, material_from_props, check_props, parameters, parameter_type, n_parameters
   use umat_rate, only: state_type, state_rate, linear_parts

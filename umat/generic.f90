@@ -11,7 +11,7 @@
 module umat_generic
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
-  use umat_host_state, only: n_statev, sv_void_ratio, sv_substep, unpack_state, pack_statev, pack_tangent
+  use umat_host_state, only: n_statev, sv_void_ratio, unpack_state, pack_statev, pack_tangent
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, check_props, n_parameters
   use umat_rate, only: state_type, continuum_stiffness

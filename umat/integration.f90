@@ -1,6 +1,6 @@
 !> Adaptive integration of the stress along one branch of the intergranular strain, at a constant direction of strain.
 module umat_integration
-  use umat_delta_path, only: delta_path, path_point, delta_after, first_guess, starts_at_zero
+  use umat_delta_path, only: delta_path, delta_after, first_guess, starts_at_zero
   use umat_influence, only: influence_type
   use umat_kinds, only: wp
   use umat_leg, only: leg_type, void_ratio_at

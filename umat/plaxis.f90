@@ -7,8 +7,8 @@
 module umat_plaxis
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int
-  use umat_host_state, only: n_statev, sv_delta, sv_void_ratio, sv_pore_pressure, sv_evaluations, sv_substep, &
-                             unset_void_ratio, tensor_from_host, unpack_state, pack_stress, pack_statev, pack_tangent, &
+  use umat_host_state, only: n_statev, sv_delta, sv_void_ratio, sv_pore_pressure, sv_evaluations, &
+                             unset_void_ratio, tensor_from_host, unpack_state, pack_statev, pack_tangent, &
                              swap_shear
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, check_props, n_parameters

@@ -165,7 +165,8 @@ contains
     mean = rho_chi * value_of(series%mean, s)
     moment = rho_chi * value_of(series%moment, s)
     do k = 0, 2
-weight(k) = leg%length * place(k) * (18.0_wp * mean - 24.0_wp * moment + place(k) * (36.0_wp * moment - 24.0_wp * mean))
+      weight(k) = leg%length * place(k) * (18.0_wp * mean - 24.0_wp * moment + &
+                                           place(k) * (36.0_wp * moment - 24.0_wp * mean))
       x(:, k) = (leg%length * m%m_R + weight(k) * (1.0_wp - m%m_R)) * leg%direction
     end do
   end subroutine follow_from_zero

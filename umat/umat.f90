@@ -6,7 +6,7 @@
 module umat_entry
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_char
-use umat_host_state, only: n_statev, sv_substep, tensor_from_host, unpack_state, turn_delta, pack_stress, pack_statev, &
+use umat_host_state, only: n_statev, tensor_from_host, unpack_state, turn_delta, pack_stress, pack_statev, &
                              pack_tangent, swap_shear
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, check_props, n_parameters
