@@ -39,6 +39,14 @@ def test_no_contact_is_lost_in_the_zone_of_no_loss() -> None:
     assert fan.linear[1] < 0.02
 
 
+def test_samples_of_two_seeds_have_the_same_stiffness_but_not_the_same_losses() -> None:
+    first, second = (paper_001.read_fan(RESULTS / "001" / name) for name in ("probes_c", "probes_h"))
+    assert (first.friction, first.seed, second.seed) == (second.friction, 1, 2)
+    assert second.linear[0] == pytest.approx(first.linear[0], abs=0.03 * first.linear[0].max())
+    (loss, error), (other, _) = (fan.coefficient("loss", "dZ_extension") for fan in (first, second))
+    assert abs(loss - other) > 3 * error
+
+
 def test_anisotropies_tell_the_friction() -> None:
     test = paper_003.read_test(RESULTS / "003", "D03")
     loaded = test.strain > 0.004
