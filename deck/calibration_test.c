@@ -38,6 +38,9 @@ static hypofab_status check_numbers(const deck_source *source, const deck_lab_te
   if (!status && given->reversal && !(*given->reversal < 1.0))
     status = deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("tests[%u].reversal", entry),
                          "%g, expected a share below 1 of the range of what the test follows", *given->reversal);
+  if (!status && given->points && (*given->points < 2 || *given->points > 100000))
+    status = deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("tests[%u].points", entry),
+                         "%u, expected 2 to 100000 rows", *given->points);
   const double *pair = given->free_void_ratio;
   if (!status && pair && !(pair[0] > 0.0 && pair[1] > pair[0]))
     status = deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("tests[%u].free_void_ratio", entry),

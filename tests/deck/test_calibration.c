@@ -68,6 +68,7 @@ static void wrong_files_are_refused(void **state) {
       {"sigma3: 100", "sigma3: -100", ":12: tests[0].sigma3: -100, expected a number > 0"},
       {"sigma3: 100", "sigma3: 100\n    compare: {e: 1}",
        ":13: tests[0].compare.e: 1, but the test has no such column"},
+      {"sigma3: 100", "sigma3: 100\n    points: 1", ":13: tests[0].points: 1, expected 2 to 100000 rows"},
       {"sigma3: 100", "sigma3: 100\n    drive: p", ":7: tests[0]: test 'one': p is not measured"},
       {"name: two", "name: one", ":13: tests[1].name: 'one' is also the name of tests[0]"},
       {"use: check", "use: check\n    free_void_ratio: [0.6, 0.9]", ":18: tests[1].free_void_ratio: given for a test"},
