@@ -11,9 +11,8 @@
 static const char text[] =
     "Find material parameters from laboratory tests by least squares and write DIR/calibration.json and "
     "DIR/calibration.md.\v"
-    "DECK is a calibration file (YAML): docs/calibration.md describes it, examples/calibration/ has one. Ctrl-C ends "
-    "the "
-    "fit; nothing is written then.\n"
+    "DECK is a calibration file (YAML): docs/calibration.md describes it, examples/calibration/ has one. Ctrl-C "
+    "ends the fit; nothing is written then.\n"
     "\n"
     "Examples:\n"
     "  hypofab calibrate examples/calibration/sand.yaml\n"
