@@ -22,7 +22,8 @@ stop() {
 stage() {
   local title=$1 log status=0 start=$SECONDS
   shift
-  log=$logs/$(printf '%s' "$title" | tr -cs 'A-Za-z0-9' '_').log
+  log=$(printf '%s' "$title" | tr -cs 'A-Za-z0-9' '_')
+  log=$logs/${log:0:80}.log # a list of packages is longer than a file's name may be
   printf '%-60s' "$title ..."
   # The subshell switches -e off by being tested, so the command is expected to be one command or to chain with &&.
   ("$@") >"$log" 2>&1 || status=$?
