@@ -58,10 +58,10 @@ def test_versions_agree() -> None:
     assert hypofab.version() in run(COMMAND, "--version")
 
 
-def test_the_stub_names_every_function_of_the_extension() -> None:
+def test_types_are_declared_for_every_function_of_the_extension() -> None:
     """f2py puts the call in the first line of the documentation: results = name(arguments)."""
-    stub = ast.parse((PACKAGE / "_core.pyi").read_text())
-    found = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+    declarations = ast.parse((PACKAGE / "_core.pyi").read_text())
+    found = {node.name: node for node in declarations.body if isinstance(node, ast.FunctionDef)}
     compiled = {name for name in dir(_core) if not name.startswith("_") and callable(getattr(_core, name))}
     assert set(found) == compiled
     for name, node in found.items():
@@ -74,9 +74,9 @@ def test_the_stub_names_every_function_of_the_extension() -> None:
         assert count == len(results.split(",") if results else []), name
 
 
-def test_the_stub_of_the_package_names_every_public_name() -> None:
-    stub = ast.parse((PACKAGE / "__init__.pyi").read_text())
-    named = {alias.asname for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+def test_types_are_declared_for_every_public_name() -> None:
+    declarations = ast.parse((PACKAGE / "__init__.pyi").read_text())
+    named = {alias.asname for node in declarations.body if isinstance(node, ast.ImportFrom) for alias in node.names}
     assert named == set(hypofab.__all__)
     for name in hypofab.__all__:
         value = getattr(hypofab, name)
