@@ -20,7 +20,7 @@ program bench_batch
   implicit none
 
   interface
-    !> umat/batch.c: the best instruction set of this processor
+    !> umat/batch/batch.c: the best instruction set of this processor
     function best_instructions() bind(C, name='hypofab_batch_best_instructions')
       import :: c_int
       integer(c_int) :: best_instructions

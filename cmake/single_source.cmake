@@ -1,7 +1,7 @@
 # Write modules, in the order given, as one Fortran file for a host whose users compile the model themselves.
 #   cmake -DSOURCES="a.f90;b.f90" -DHOST=abaqus -DVERSION=1.2.3 -DOUTPUT=file -P single_source.cmake
 # Changed on the way: the choice of precision is made; and for Abaqus the modules' own symbols umat_ and vumat_ make room
-# for those that the user's compiler gives to the external procedures of umat/abaqus.f90.
+# for those that the user's compiler gives to the external procedures of umat/hosts/abaqus.f90.
 string(CONCAT text "!DIR$ FREEFORM\n" "! hypofab ${VERSION}: hypoplasticity of sand with intergranular strain, for ${HOST}.\n"
               "! Generated from the folder umat of hypofab, where corrections belong. How to use it: docs/${HOST}.md.\n")
 foreach(source IN LISTS SOURCES)

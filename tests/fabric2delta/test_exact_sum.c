@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "fabric2delta/exact_sum.h"
+#include "fabric2delta/fabric/exact_sum.h"
 
 enum { N = 30000 };
 static double numbers[N];

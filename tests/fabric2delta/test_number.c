@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/number.h"
+#include "base/text/number.h"
 
 static uint64_t next_random(void) {
   static uint64_t state = 88172645463325252u;

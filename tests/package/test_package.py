@@ -48,7 +48,13 @@ def test_the_wheel_holds_what_runs_and_nothing_else() -> None:
 def test_the_source_archive_holds_what_builds() -> None:
     with tarfile.open(archive("*.tar.gz")) as file:
         names = {name.split("/", 1)[1] for name in file.getnames() if "/" in name}
-    for wanted in ("CMakeLists.txt", "LICENSE", "python/extension/_core.pyf", "umat/rate.f90", "include/hypofab.h"):
+    for wanted in (
+        "CMakeLists.txt",
+        "LICENSE",
+        "python/extension/_core.pyf",
+        "umat/memory/rate.f90",
+        "include/hypofab.h",
+    ):
         assert wanted in names
     assert not [name for name in names if name.startswith(("build", "out/", ".venv"))]
 

@@ -10,7 +10,7 @@
 #include "hypofab.h"
 #include "support/states.h"
 #include "support/tensors.h"
-#include "umat/batch.h"
+#include "umat/batch/batch.h"
 
 /* clang-format off */
 #include <setjmp.h>

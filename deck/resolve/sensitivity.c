@@ -1,0 +1,169 @@
+/* Derivatives of the tests of a study: numbers of the deck by name, and one test with derivatives to a sink. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "deck/resolve/study.h"
+
+static hypofab_status refuse(const char *name, const char *why) {
+  return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "'%s' %s", name, why);
+}
+
+/* Is delta of a state in units of R, as the deck gives it? */
+static bool follows_R(const deck_delta *given) {
+  return given && (given->mobilised || given->fabric || given->contacts);
+}
+
+/* Delta follows from c of the weight function. */
+static hypofab_status vary_c(const study_state *state, const hypofab_material *material, hypofab_variation *variation) {
+  if (!state->has_fabric) return refuse("c", "is not in this test, expected a state with delta from a fabric");
+  *variation = (hypofab_variation){0};
+  return hypofab_fabric_delta_slope(&state->fabric, material->R, state->c, state->weight, variation->initial.delta);
+}
+
+/* The stiffness of the pore water must come from the material in every step, and in one at least. */
+static hypofab_status check_water(const deck_test *given) {
+  unsigned steps = 0;
+  for (unsigned i = 0; i < given->steps_count; ++i) {
+    const deck_water *water = given->steps[i].pore_water;
+    if (!water || water->held) continue;
+    if (water->K_w)
+      return refuse("K_w", "is given by a step of the test itself, expected it among the parameters of the material");
+    ++steps;
+  }
+  return steps > 0 ? HYPOFAB_OK : refuse("K_w", "is not in this test, expected a step with pore_water");
+}
+
+static bool is_one_of(const char *name, const char *const *list, size_t n) {
+  for (size_t i = 0; i < n; ++i)
+    if (strcmp(name, list[i]) == 0) return true;
+  return false;
+}
+
+static bool is_test(const hypofab_study *study, int test) {
+  return study && test >= 0 && test < hypofab_study_test_count(study);
+}
+
+hypofab_status hypofab_study_variation(const hypofab_study *study, int test, const char *name,
+                                       hypofab_variation *variation) {
+  static const char *const intergranular[] = {"m_R", "m_T", "R", "beta_r", "chi", "c"};
+  if (!is_test(study, test) || !name || !variation)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "expected a test of the study, a name and a variation to fill");
+  const study_state *state = &study->states[study->tests[test].state];
+  const hypofab_material *material = &study->materials[state->material];
+  const bool of_delta = strncmp(name, "delta_", 6) == 0;
+  if (!study_has_intergranular(material) &&
+      (of_delta || is_one_of(name, intergranular, sizeof intergranular / sizeof *intergranular)))
+    return refuse(name, "has no influence, for the material has no intergranular strain (m_R <= 0.5)");
+  if (strcmp(name, "c") == 0) return vary_c(state, material, variation);
+  hypofab_status status = strcmp(name, "K_w") == 0 ? check_water(&study->deck->tests[test]) : HYPOFAB_OK;
+  if (!status) status = hypofab_variation_of(name, material, variation);
+  if (status) return status;
+  if (strcmp(name, "R") == 0 && follows_R(study->deck->states[study->tests[test].state].delta))
+    for (int i = 0; i < 6; ++i) variation->initial.delta[i] = state->initial.delta[i] / material->R;
+  double size = 0;
+  for (int i = 0; i < 6; ++i) size += state->initial.delta[i] * state->initial.delta[i];
+  if (of_delta && size == 0)
+    return refuse(name, "starts from delta = 0, where a test has no derivative; expected another delta");
+  if (of_delta || strncmp(name, "sig_", 4) == 0)
+    for (int i = 0; i < 6; ++i) {
+      variation->initial.stress[i] *= study_sign(study);
+      variation->initial.delta[i] *= study_sign(study);
+    }
+  return HYPOFAB_OK;
+}
+
+const char *hypofab_study_sensitivity_name(const hypofab_study *study, int test, int index) {
+  if (!is_test(study, test)) return NULL;
+  const deck_test *given = &study->deck->tests[test];
+  return index >= 0 && (unsigned)index < given->sensitivities_count ? given->sensitivities[index] : NULL;
+}
+
+hypofab_status study_check_sensitivities(const hypofab_study *study, const deck_source *source, unsigned index) {
+  const deck_test *given = &study->deck->tests[index];
+  for (unsigned i = 0; i < given->sensitivities_count; ++i) {
+    const deck_key key = deck_key_format("tests[%u].sensitivities[%u]", index, i);
+    hypofab_variation variation;
+    for (unsigned j = 0; j < i; ++j)
+      if (strcmp(given->sensitivities[i], given->sensitivities[j]) == 0)
+        return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is there already, expected it once",
+                           given->sensitivities[i]);
+    if (hypofab_study_variation(study, (int)index, given->sensitivities[i], &variation))
+      return deck_refuse(source, HYPOFAB_BAD_FILE, key, "%s", hypofab_last_message());
+  }
+  return HYPOFAB_OK;
+}
+
+hypofab_status study_variations(const hypofab_study *study, int index, const char *const *names, int *n,
+                                hypofab_variation **variations) {
+  const deck_test *given = &study->deck->tests[index];
+  *variations = NULL;
+  if (!names) names = (const char *const *)given->sensitivities, *n = (int)given->sensitivities_count;
+  if (*n < 0 || *n > HYPOFAB_MAX_VARIATIONS)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%d names, expected 0 to %d", *n, HYPOFAB_MAX_VARIATIONS);
+  hypofab_variation *all = calloc((size_t)*n + 1, sizeof *all);
+  if (!all) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for %d derivatives", *n);
+  hypofab_status status = HYPOFAB_OK;
+  for (int k = 0; !status && k < *n; ++k) status = hypofab_study_variation(study, index, names[k], &all[k]);
+  if (status)
+    free(all);
+  else
+    *variations = all;
+  return status;
+}
+
+/* Between the driver and the caller's sink. */
+typedef struct delivery {
+  const hypofab_study *study;
+  hypofab_sensitivity_sink sink;
+  int (*watch)(int step, double done, void *user);
+  void *user;
+  int n;
+  double *derivative;
+} delivery;
+
+/* Zero without a sign, as in files. */
+static double in_sign(double sign, double value) { return value == 0 ? 0 : sign * value; }
+
+static int deliver(const hypofab_row *row, const double *derivative, void *user) {
+  const delivery *to = user;
+  hypofab_row turned = *row;
+  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
+    const double sign = study_quantity_sign(to->study, (hypofab_quantity)i);
+    turned.value[i] = in_sign(sign, row->value[i]);
+    for (int k = i; k < to->n * HYPOFAB_N_QUANTITIES; k += HYPOFAB_N_QUANTITIES)
+      to->derivative[k] = in_sign(sign, derivative[k]);
+  }
+  return to->sink(&turned, to->derivative, to->user);
+}
+
+static int watch(int step, double done, void *user) {
+  const delivery *to = user;
+  return to->watch(step, done, to->user);
+}
+
+hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int test, int n_names,
+                                                const char *const *names, hypofab_sensitivity_sink sink,
+                                                int (*watched)(int step, double done, void *user), void *user,
+                                                int *columns, hypofab_test_outcome *outcome) {
+  if (!is_test(study, test) || !sink)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "expected a loaded study, a number of one of its tests, and a sink");
+  const study_test *resolved = &study->tests[test];
+  const study_state *state = &study->states[resolved->state];
+  hypofab_variation *variations;
+  hypofab_status status = study_variations(study, test, names, &n_names, &variations);
+  if (status) return status;
+  if (columns) *columns = study_columns(resolved);
+  delivery to = {study, sink, watched, user, n_names, NULL};
+  to.derivative = calloc((size_t)n_names + 1, HYPOFAB_N_QUANTITIES * sizeof *to.derivative);
+  hypofab_test_options options = resolved->options;
+  options.watch = watched ? watch : NULL;
+  if (to.derivative)
+    status = hypofab_test_sensitivities(&study->materials[state->material], &state->initial, resolved->steps,
+                                        (int)resolved->n_steps, &options, n_names, variations, deliver, &to, outcome);
+  else
+    status = hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for %d derivatives", n_names);
+  free(variations);
+  free(to.derivative);
+  return status;
+}

@@ -1,0 +1,75 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "deck/resolve/study.h"
+
+/* An isotropic state by p, or six components in the deck's sign. */
+static hypofab_status resolve_stress(const hypofab_study *study, const deck_source *source, unsigned index,
+                                     double stress[6]) {
+  const deck_state *given = &study->deck->states[index];
+  if (!given->stress == !given->p)
+    return deck_refuse(source, HYPOFAB_BAD_STATE, deck_key_format("states[%u]", index),
+                       "%s 'stress' and 'p', expected one of them", given->p ? "both" : "neither");
+  if (given->p && !(*given->p > 0))
+    return deck_refuse(source, HYPOFAB_BAD_STATE, deck_key_format("states[%u].p", index),
+                       "%g is no compression, expected p > 0 (p is positive in compression under either sign)",
+                       *given->p);
+  for (int i = 0; i < 6; ++i) {
+    if (given->stress)
+      stress[i] = study_sign(study) * given->stress[i];
+    else
+      stress[i] = i < 3 ? -*given->p : 0.0;
+  }
+  return HYPOFAB_OK;
+}
+
+/* Which key to blame for a state outside the model's domain: delta when the state is admissible without it. */
+static const char *blamed_key(const hypofab_material *material, const hypofab_state *state, const deck_state *given) {
+  hypofab_state without = *state;
+  memset(without.delta, 0, sizeof without.delta);
+  if (hypofab_state_check(material, &without) == HYPOFAB_OK) return ".delta";
+  if (strstr(hypofab_last_message(), "void")) return ".void_ratio";
+  return given->p ? ".p" : ".stress";
+}
+
+static hypofab_status resolve_state(hypofab_study *study, const deck_source *source, unsigned index) {
+  const deck *deck = study->deck;
+  const deck_state *given = &deck->states[index];
+  study_state *state = &study->states[index];
+  while (state->material < deck->materials_count && strcmp(deck->materials[state->material].name, given->material) != 0)
+    ++state->material;
+  if (state->material == deck->materials_count)
+    return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("states[%u].material", index),
+                       "'%s' is not defined, expected the name of one of the deck's materials", given->material);
+  const hypofab_material *material = &study->materials[state->material];
+
+  hypofab_status status = resolve_stress(study, source, index, state->initial.stress);
+  if (status) return status;
+  state->initial.void_ratio = given->void_ratio;
+  status = study_resolve_delta(study, source, index);
+  if (status) return status;
+
+  status = hypofab_state_check(material, &state->initial);
+  if (!status) return HYPOFAB_OK;
+  char reason[HYPOFAB_MESSAGE_SIZE];
+  memcpy(reason, hypofab_last_message(), sizeof reason);
+  const char *key = blamed_key(material, &state->initial, given);
+  return deck_refuse(source, status, deck_key_format("states[%u]%s", index, key), "%s%s", reason,
+                     study_sign(study) < 0 ? " (tension positive here)" : "");
+}
+
+hypofab_status study_resolve_states(hypofab_study *study, const deck_source *source) {
+  const deck *deck = study->deck;
+  study->states = calloc(deck->states_count, sizeof *study->states);
+  if (!study->states) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", source->path);
+  for (unsigned i = 0; i < deck->states_count; ++i) {
+    for (unsigned j = 0; j < i; ++j)
+      if (strcmp(deck->states[i].name, deck->states[j].name) == 0)
+        return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("states[%u].name", i),
+                           "'%s' is also the name of states[%u], expected a name of its own", deck->states[i].name, j);
+    hypofab_status status = resolve_state(study, source, i);
+    if (status) return status;
+  }
+  return HYPOFAB_OK;
+}

@@ -1,0 +1,23 @@
+#include "driver/control/linear.h"
+
+#include <string.h>
+
+hypofab_status linear_parts_of(const hypofab_material *material, const hypofab_state *state, linear_parts *parts) {
+  hypofab_status status =
+      hypofab_linear_parts(material, state, parts->reversal, parts->jump, parts->direction, &parts->model);
+  if (status) return status;
+  memcpy(parts->linear, parts->reversal, sizeof parts->linear);
+  if (parts->model == HYPOFAB_PLAIN) return HYPOFAB_OK;
+  hypofab_state without = *state;
+  double jump[6], direction[6];
+  hypofab_branch model;
+  memset(without.delta, 0, sizeof without.delta);
+  return hypofab_linear_parts(material, &without, parts->linear, jump, direction, &model);
+}
+
+void linear_branch(const linear_parts *parts, const double along[6], double stiffness[36]) {
+  memcpy(stiffness, parts->reversal, sizeof parts->reversal);
+  if (!along) return;
+  for (int i = 0; i < 6; i++)
+    for (int j = 0; j < 6; j++) stiffness[6 * i + j] += parts->jump[i] * along[j] * (j < 3 ? 1.0 : 2.0);
+}

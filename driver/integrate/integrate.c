@@ -1,0 +1,220 @@
+/* Integrators of element tests: what does not depend on which integrator of SUNDIALS is chosen. */
+#include "driver/integrate/integrate.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "base/message.h"
+#include "driver/control/path_rates.h"
+#include "driver/integrate/integrate_method.h"
+
+static const long default_max_steps = 1000000;
+
+/*
+ * By hypofab_integrator; the names are those of decks. Multistep methods take many small steps after each reversal,
+ * whose errors add up: the same agreement needs a finer default tolerance.
+ */
+static const struct {
+  const integrator_method *method;
+  const char *name;
+  double tolerance;
+} methods[] = {
+    [HYPOFAB_ERK] = {&integrator_erk, "erk", 1e-8},
+    [HYPOFAB_CVODE] = {&integrator_cvode, "cvode", 1e-11},
+    [HYPOFAB_IDA] = {&integrator_ida, "ida", 1e-11},
+};
+
+const char *hypofab_integrator_name(hypofab_integrator integrator) {
+  return (unsigned)integrator < sizeof methods / sizeof *methods ? methods[integrator].name : NULL;
+}
+
+int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
+  (void)time;
+  integrator *it = user;
+  const test_state *state = (const test_state *)N_VGetArrayPointer(y);
+  it->n_evaluations++;
+  it->obstacle =
+      path_rates(it->material, it->step, it->branch, state, (test_state *)N_VGetArrayPointer(ydot), &it->along);
+  if (it->obstacle) return 1; /* recoverable: a smaller step may stay where rates exist */
+  it->evaluated = *state;
+  return 0;
+}
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+int integrator_context(SUNContext *context) {
+  if (SUNContext_Create(SUN_COMM_NULL, context)) return -1;
+  return SUNContext_ClearErrHandlers(*context); /* a library does not print */
+}
+#else
+int integrator_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
+
+void integrator_say_nothing(int code, const char *module, const char *function, char *message, void *user) {
+  (void)code, (void)module, (void)function, (void)message, (void)user;
+}
+#endif
+
+int integrator_create_linear_solver(integrator *it) {
+  it->matrix = SUNDenseMatrix(N_STATE, N_STATE, it->context);
+  if (it->matrix) it->linear_solver = SUNLinSol_Dense(it->y, it->matrix, it->context);
+  return it->linear_solver ? 0 : -1;
+}
+
+void integrator_absolute(const hypofab_material *material, double tolerance, const test_state *state,
+                         test_state *absolute) {
+  double largest_stress = 0.0;
+  for (int i = 0; i < 6; i++) largest_stress = fmax(largest_stress, fabs(state->material.stress[i]));
+  /* The strain over which stress and delta change. */
+  const double strain_scale = material->m_R > 0.5 ? material->R : 1e-4;
+  for (int i = 0; i < 6; i++) {
+    absolute->material.stress[i] = tolerance * largest_stress;
+    absolute->material.delta[i] = tolerance * strain_scale;
+    absolute->strain[i] = tolerance * strain_scale;
+  }
+  absolute->material.void_ratio = tolerance * 1e-3;
+  /* The sums follow the rest; near a peak, where strain grows without bound, they must not hold it back. */
+  absolute->path = 1.0;
+  absolute->work = largest_stress;
+}
+
+hypofab_status integrator_create(const hypofab_material *material, const hypofab_test_options *options,
+                                 integrator **created) {
+  const hypofab_test_options defaults = {0};
+  if (!options) options = &defaults;
+  *created = NULL;
+  if (!hypofab_integrator_name(options->integrator))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "integrator is %d, expected 0 (ERK), 1 (CVODE) or 2 (IDA)",
+                        (int)options->integrator);
+  if (!(options->tolerance >= 0.0 && options->tolerance <= 1e-2))
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "tolerance is %g, expected 0 (the default) to 0.01", options->tolerance);
+  integrator *it = calloc(1, sizeof *it);
+  if (!it) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for an integrator");
+  it->method = methods[options->integrator].method;
+  it->material = material;
+  it->tolerance = options->tolerance > 0.0 ? fmax(options->tolerance, 1e-13) : methods[options->integrator].tolerance;
+  it->max_steps = options->max_steps > 0 ? options->max_steps : default_max_steps;
+  if (integrator_context(&it->context) == 0) {
+    it->y = N_VNew_Serial(N_STATE, it->context);
+    it->absolute = N_VNew_Serial(N_STATE, it->context);
+    it->inside = N_VNew_Serial(N_STATE, it->context);
+  }
+  if (!it->y || !it->absolute || !it->inside) {
+    integrator_free(it);
+    return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for an integrator");
+  }
+  *created = it;
+  return HYPOFAB_OK;
+}
+
+void integrator_free(integrator *it) {
+  if (!it) return;
+  it->method->free(it);
+  if (it->linear_solver) SUNLinSolFree(it->linear_solver);
+  if (it->matrix) SUNMatDestroy(it->matrix);
+  if (it->rate) N_VDestroy(it->rate);
+  if (it->inside) N_VDestroy(it->inside);
+  if (it->y) N_VDestroy(it->y);
+  if (it->absolute) N_VDestroy(it->absolute);
+  if (it->context) SUNContext_Free(&it->context);
+  free(it);
+}
+
+void integrator_set_step(integrator *it, const hypofab_step *step, hypofab_branch branch) {
+  it->step = step;
+  it->branch = branch;
+  it->is_fresh = 1;
+}
+
+/* Does the integrator stand at this very place, with all it has learnt on the way? A multistep method should keep it.
+ */
+static int stands_at(const integrator *it, double time, const test_state *state) {
+  return it->method->interpolate && it->memory && !it->is_fresh && time == it->now &&
+         memcmp(N_VGetArrayPointer(it->y), state, sizeof *state) == 0;
+}
+
+void integrator_new_leg(integrator *it) { it->step_count = 0; }
+
+hypofab_status integrator_start(integrator *it, double time, const test_state *state, double first_step) {
+  if (stands_at(it, time, state)) return HYPOFAB_OK;
+  memcpy(N_VGetArrayPointer(it->y), state, sizeof *state);
+  integrator_absolute(it->material, it->tolerance, state, (test_state *)N_VGetArrayPointer(it->absolute));
+  it->obstacle = HYPOFAB_OK;
+  it->is_fresh = 0;
+  it->before = it->now = time;
+  if (it->method->start(it, time, first_step) >= 0) return HYPOFAB_OK;
+  return it->obstacle ? it->obstacle : hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator could not be set up");
+}
+
+double integrator_next_step(const integrator *it) { return it->method->next_step(it); }
+
+/* What ends a test; ERKStep, CVODE and IDA number it alike (IDA has no TOO_CLOSE). */
+enum { TOO_MUCH_ACCURACY = -2, ERROR_TEST = -3, CONVERGENCE = -4, TOO_CLOSE = -27 };
+
+/* A failure of the integrator as a finding about the test. */
+static hypofab_status explain(integrator *it, int flag) {
+  if (it->obstacle) return it->obstacle; /* its message stands */
+  if (flag == TOO_MUCH_ACCURACY || flag == ERROR_TEST || flag == CONVERGENCE || flag == TOO_CLOSE)
+    return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the strain rate grows without bound under the prescribed rates");
+  return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator failed with code %d", flag);
+}
+
+hypofab_status integrator_advance(integrator *it, double stop, double *time, test_state *state) {
+  if (stop - *time <= 8.0 * DBL_EPSILON * fabs(stop)) { /* nothing changes within the rounding of time */
+    *time = stop;
+    memcpy(state, N_VGetArrayPointer(it->y), sizeof *state);
+    return HYPOFAB_OK;
+  }
+  if (++it->step_count > it->max_steps)
+    return hypofab_fail(HYPOFAB_STEP_LIMIT, "the step took more than %ld integrator steps", it->max_steps);
+  double reached = *time;
+  it->obstacle = HYPOFAB_OK;
+  const int flag = it->method->advance(it, stop, &reached);
+  if (flag < 0) return explain(it, flag);
+  it->n_steps++;
+  it->before = *time;
+  it->now = reached;
+  if (!(reached > *time)) /* steps have shrunk below the resolution of time */
+    return it->obstacle ? it->obstacle
+                        : hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
+                                       "the strain rate grows without bound under the prescribed rates");
+  *time = reached;
+  memcpy(state, N_VGetArrayPointer(it->y), sizeof *state);
+  return HYPOFAB_OK;
+}
+
+hypofab_status integrator_reach(integrator *it, double from, const test_state *start, double to, test_state *state) {
+  if (it->method->interpolate && from >= it->before && to <= it->now && !it->is_fresh) {
+    if (it->method->interpolate(it, to, it->inside) < 0)
+      return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator knows no state at time %g", to);
+    memcpy(state, N_VGetArrayPointer(it->inside), sizeof *state);
+    return HYPOFAB_OK;
+  }
+  /* A part of a step that was accepted is accepted too, most of the time. */
+  hypofab_status status = integrator_start(it, from, start, to - from);
+  *state = *start;
+  for (double time = from; !status && time < to;) status = integrator_advance(it, to, &time, state);
+  return status;
+}
+
+int integrator_glimpse(integrator *it, double time, test_state *state) {
+  if (it->is_fresh || time < it->before || time > it->now || !(it->before < it->now)) return 0;
+  if (it->method->glimpse(it, time, it->inside) < 0) return 0;
+  memcpy(state, N_VGetArrayPointer(it->inside), sizeof *state);
+  return 1;
+}
+
+double integrator_tolerance(const integrator *it) { return it->tolerance; }
+
+int integrator_knows_along(const integrator *it, const test_state *state, double *along) {
+  if (it->obstacle || memcmp(&it->evaluated, state, sizeof *state) != 0) return 0;
+  *along = it->along;
+  return 1;
+}
+
+void integrator_statistics(const integrator *it, long *steps, long *evaluations) {
+  *steps = it->n_steps;
+  *evaluations = it->n_evaluations;
+}
