@@ -6,18 +6,55 @@
 
 static _Thread_local char last_message[HYPOFAB_MESSAGE_SIZE];
 
-hypofab_status hypofab_fail(hypofab_status status, const char *format, ...) {
-  /* A message may quote the previous one, so format into a second buffer first. */
+static _Thread_local hypofab_subject last_subject = {HYPOFAB_ABOUT_NOTHING, -1, ""};
+
+/* A message may quote the previous one, so format into a second buffer first. */
+static void keep(const char *format, va_list arguments) {
   char text[HYPOFAB_MESSAGE_SIZE];
+  vsnprintf(text, sizeof text, format, arguments);
+  memcpy(last_message, text, sizeof last_message);
+}
+
+static void keep_subject(hypofab_about about, int64_t index, const char *name, size_t length) {
+  hypofab_subject subject = {about, index, ""};
+  const size_t most = sizeof subject.name - 1;
+  if (name) memcpy(subject.name, name, length < most ? length : most);
+  last_subject = subject; /* name may point into the last subject */
+}
+
+hypofab_status hypofab_fail(hypofab_status status, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
+  keep(format, arguments);
   va_end(arguments);
-  memcpy(last_message, text, sizeof last_message);
+  keep_subject(HYPOFAB_ABOUT_NOTHING, -1, NULL, 0);
   return status;
 }
 
-void hypofab_set_message(const char *text, int length) { hypofab_fail(HYPOFAB_OK, "%.*s", length, text); }
+hypofab_status hypofab_fail_about(hypofab_status status, hypofab_about about, int64_t index, const char *name,
+                                  const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  keep(format, arguments);
+  va_end(arguments);
+  keep_subject(about, index, name, name ? strlen(name) : 0);
+  return status;
+}
+
+hypofab_status hypofab_fail_again(hypofab_status status, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  keep(format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+void hypofab_set_message(int about, const char *name, int name_length, const char *text, int length) {
+  hypofab_fail(HYPOFAB_OK, "%.*s", length, text);
+  keep_subject((hypofab_about)about, -1, name, (size_t)name_length);
+}
+
+const hypofab_subject *hypofab_last_subject(void) { return &last_subject; }
 
 const char *hypofab_last_message(void) { return last_message; }
 

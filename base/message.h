@@ -17,7 +17,17 @@
  */
 hypofab_status hypofab_fail(hypofab_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** The same for callers without variable arguments (Fortran): text of the given length, not terminated. */
-void hypofab_set_message(const char *text, int length);
+/**
+ * @brief The same, with what the message is about (hypofab_last_subject).
+ * @param about, index, name members of the subject; name NULL: ""
+ */
+hypofab_status hypofab_fail_about(hypofab_status status, hypofab_about about, int64_t index, const char *name,
+                                  const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/** Give the last failure another text and keep its subject: a caller says more, e.g. in which step. */
+hypofab_status hypofab_fail_again(hypofab_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** hypofab_fail_about for callers without variable arguments (Fortran): texts of the given lengths, not terminated. */
+void hypofab_set_message(int about, const char *name, int name_length, const char *text, int length);
 
 #endif

@@ -19,36 +19,17 @@
 #ifndef HYPOFAB_H
 #define HYPOFAB_H
 
-#include <stddef.h>
-#include <stdint.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-#if defined(__GNUC__)
-#pragma GCC visibility push(default)
-#endif
-
-/* Each part in a file of its own, in an order that matters: a part uses those before it. */
-/* clang-format off */
-#include "hypofab_model.h" /* IWYU pragma: export */
+/* Each part can be included alone. */
+#include "hypofab_calibration.h"  /* IWYU pragma: export */
+#include "hypofab_change.h"       /* IWYU pragma: export */
+#include "hypofab_deck.h"         /* IWYU pragma: export */
+#include "hypofab_describe.h"     /* IWYU pragma: export */
 #include "hypofab_element_test.h" /* IWYU pragma: export */
-#include "hypofab_probe.h" /* IWYU pragma: export */
-#include "hypofab_fabric.h" /* IWYU pragma: export */
-#include "hypofab_change.h" /* IWYU pragma: export */
-#include "hypofab_deck.h" /* IWYU pragma: export */
-#include "hypofab_describe.h" /* IWYU pragma: export */
-#include "hypofab_sensitivity.h" /* IWYU pragma: export */
-#include "hypofab_sampling.h" /* IWYU pragma: export */
-#include "hypofab_calibration.h" /* IWYU pragma: export */
-/* clang-format on */
+#include "hypofab_fabric.h"       /* IWYU pragma: export */
+#include "hypofab_model.h"        /* IWYU pragma: export */
+#include "hypofab_probe.h"        /* IWYU pragma: export */
+#include "hypofab_sampling.h"     /* IWYU pragma: export */
+#include "hypofab_sensitivity.h"  /* IWYU pragma: export */
+#include "hypofab_status.h"       /* IWYU pragma: export */
 
-#if defined(__GNUC__)
-#pragma GCC visibility pop
-#endif
-
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -7,9 +7,9 @@
 #ifndef HYPOFAB_CALIBRATION_H
 #define HYPOFAB_CALIBRATION_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_model.h"
+
+HYPOFAB_BEGIN
 
 /** What is measured in laboratory tests. */
 typedef enum hypofab_laboratory_quantity {
@@ -247,5 +247,7 @@ char *hypofab_calibration_report(const hypofab_calibration *calibration);
 
 /** Write DIRECTORY/calibration.json and calibration.md, whole or not at all; HYPOFAB_IO_ERROR. */
 hypofab_status hypofab_calibration_write(const hypofab_calibration *calibration, const char *directory);
+
+HYPOFAB_END
 
 #endif

@@ -6,9 +6,9 @@
 #ifndef HYPOFAB_CHANGE_H
 #define HYPOFAB_CHANGE_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_fabric.h"
+
+HYPOFAB_BEGIN
 
 /* ------------------------------------------------------------- fabric change */
 
@@ -288,5 +288,7 @@ typedef struct hypofab_uncertainty {
  */
 hypofab_status hypofab_bootstrap_uncertainty(const hypofab_bootstrap *bootstrap, double level, double R, double c,
                                              const char *weight, int corrected, hypofab_uncertainty *uncertainty);
+
+HYPOFAB_END
 
 #endif

@@ -5,9 +5,12 @@
 #ifndef HYPOFAB_DECK_H
 #define HYPOFAB_DECK_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_change.h"
+#include "hypofab_element_test.h"
+#include "hypofab_fabric.h"
+#include "hypofab_probe.h"
+
+HYPOFAB_BEGIN
 
 /** A validated deck: materials, states, tests and envelopes. */
 typedef struct hypofab_study hypofab_study;
@@ -150,5 +153,7 @@ typedef struct hypofab_c_fit {
  */
 hypofab_status hypofab_study_fit_c(const hypofab_study *study, int n, const hypofab_stiffness_target *targets,
                                    const hypofab_fit_c_options *options, hypofab_c_fit *result);
+
+HYPOFAB_END
 
 #endif

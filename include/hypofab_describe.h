@@ -9,9 +9,9 @@
 #ifndef HYPOFAB_DESCRIBE_H
 #define HYPOFAB_DESCRIBE_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_fabric.h"
+
+HYPOFAB_BEGIN
 
 /** What contacts are counted by. */
 typedef enum hypofab_contact_weight {
@@ -172,5 +172,7 @@ hypofab_status hypofab_describe_parts(int n, const char *const *paths, const hyp
 
 /** Name of component index of a tensor of rank 2 ("xx") or 4 ("xxxx"); NULL when out of range. */
 const char *hypofab_component_name(int rank, int index);
+
+HYPOFAB_END
 
 #endif

@@ -5,9 +5,9 @@
 #ifndef HYPOFAB_ELEMENT_TEST_H
 #define HYPOFAB_ELEMENT_TEST_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_model.h"
+
+HYPOFAB_BEGIN
 
 /** Output quantities: the columns of a result row, and what a step's end and row spacing may refer to. */
 typedef enum hypofab_quantity {
@@ -307,5 +307,7 @@ typedef struct hypofab_test_outcome {
 hypofab_status hypofab_test_run(const hypofab_material *material, const hypofab_state *initial,
                                 const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
                                 hypofab_row_sink sink, void *user, hypofab_test_outcome *outcome);
+
+HYPOFAB_END
 
 #endif

@@ -6,9 +6,9 @@
 #ifndef HYPOFAB_FABRIC_H
 #define HYPOFAB_FABRIC_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_status.h"
+
+HYPOFAB_BEGIN
 
 /** Contact fabric of a sample (paper 000, Eqs. 1 to 4). */
 typedef struct hypofab_fabric {
@@ -173,5 +173,7 @@ hypofab_status hypofab_fabric_to_delta_weighted(const hypofab_fabric *fabric, do
  * @param turned   filled; may be `fabric`
  */
 hypofab_status hypofab_fabric_rotate(const hypofab_fabric *fabric, const double rotation[3][3], hypofab_fabric *turned);
+
+HYPOFAB_END
 
 #endif

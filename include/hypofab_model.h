@@ -6,39 +6,9 @@
 #ifndef HYPOFAB_MODEL_H
 #define HYPOFAB_MODEL_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_status.h"
 
-/* -------------------------------------------------------------------- status */
-
-/** Outcome of a call. 1..99: a physical finding; 100..199: bad input; 200..: internal error. */
-typedef enum hypofab_status {
-  HYPOFAB_OK = 0,
-  HYPOFAB_NOT_CONTROLLABLE = 1,   /**< no strain rate satisfies the prescribed rates (peak, limit point) */
-  HYPOFAB_NOT_UNIQUE = 2,         /**< two strain rates satisfy the prescribed rates */
-  HYPOFAB_OUT_OF_DOMAIN = 3,      /**< a principal stress became tensile or zero, or void ratio left (0, inf) */
-  HYPOFAB_STEP_LIMIT = 4,         /**< the bound on work (rate evaluations, integrator steps) was reached */
-  HYPOFAB_TARGET_NOT_REACHED = 5, /**< a step ran its maximum time without meeting its end condition */
-  HYPOFAB_INTERRUPTED = 6,        /**< the caller's callback asked to stop */
-  HYPOFAB_LIQUEFACTION = 7,       /**< the mean effective stress vanished in an undrained step */
-  HYPOFAB_BAD_MATERIAL = 100,     /**< a parameter is outside its admissible range, or unknown */
-  HYPOFAB_BAD_STATE = 101,        /**< a state is outside the model's domain, or not finite */
-  HYPOFAB_BAD_ARGUMENT = 102,     /**< another argument is wrong */
-  HYPOFAB_BAD_FILE = 103,         /**< a file cannot be read, or its content is wrong */
-  HYPOFAB_NO_MEMORY = 200,
-  HYPOFAB_IO_ERROR = 201, /**< a result file cannot be written */
-  HYPOFAB_INTERNAL_ERROR = 202
-} hypofab_status;
-
-/** One sentence for a status, e.g. "loss of controllability: ..."; never NULL. */
-const char *hypofab_status_text(hypofab_status status);
-
-/** The message of the last failed call in this thread; "" before any failure; never NULL. */
-const char *hypofab_last_message(void);
-
-/** Library version, "major.minor.patch". */
-const char *hypofab_version(void);
+HYPOFAB_BEGIN
 
 /* ------------------------------------------------------------------ material */
 
@@ -241,5 +211,7 @@ hypofab_status hypofab_update_batch(const hypofab_material *material, const hypo
 
 /** Mobilised friction angle asin((s1 - s3)/(s1 + s3)) of a stress [deg]; 90 where it is not defined. */
 double hypofab_friction_angle(const double stress[6]);
+
+HYPOFAB_END
 
 #endif

@@ -5,9 +5,9 @@
 #ifndef HYPOFAB_PROBE_H
 #define HYPOFAB_PROBE_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_element_test.h"
+
+HYPOFAB_BEGIN
 
 /* ------------------------------------------------------------------ envelope */
 
@@ -103,9 +103,6 @@ typedef struct hypofab_answer {
   double irrecoverable[6]; /**< what of the response is left after unloading; NaN without unloading */
   hypofab_status status;   /**< 0, or why this probe has no answer, e.g. HYPOFAB_NOT_CONTROLLABLE beyond a peak */
 } hypofab_answer;
-
-/** Told how far a long call is: what is being computed and the fraction done. Non-zero asks to stop. */
-typedef int (*hypofab_progress)(const char *what, double fraction, void *user);
 
 /**
  * @brief Probe one state in many directions; every probe starts from it anew.
@@ -210,5 +207,7 @@ typedef struct hypofab_control_stability {
  */
 hypofab_status hypofab_stability_control(const hypofab_material *material, const hypofab_state *state,
                                          const hypofab_step *step, hypofab_control_stability *result);
+
+HYPOFAB_END
 
 #endif

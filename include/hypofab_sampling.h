@@ -5,9 +5,9 @@
 #ifndef HYPOFAB_SAMPLING_H
 #define HYPOFAB_SAMPLING_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_status.h"
+
+HYPOFAB_BEGIN
 
 /** Name of quasi-random sequence number index: "sobol", "halton", "reverse_halton", "niederreiter"; then NULL. */
 const char *hypofab_sequence_name(int index);
@@ -59,5 +59,7 @@ hypofab_status hypofab_quantiles(const hypofab_distribution *distribution, int64
  */
 hypofab_status hypofab_probabilities(const hypofab_distribution *distribution, int64_t n, const double *value,
                                      double *probability);
+
+HYPOFAB_END
 
 #endif

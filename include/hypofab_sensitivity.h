@@ -9,9 +9,9 @@
 #ifndef HYPOFAB_SENSITIVITY_H
 #define HYPOFAB_SENSITIVITY_H
 
-#ifndef HYPOFAB_H
-#error "include hypofab.h, which includes this file"
-#endif
+#include "hypofab_deck.h"
+
+HYPOFAB_BEGIN
 
 /** The derivative with respect to one number x of all that a test starts from. Zero in a field: it does not depend on
  * x. */
@@ -146,5 +146,7 @@ hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int 
                                                 const char *const *names, hypofab_sensitivity_sink sink,
                                                 int (*watch)(int step, double done, void *user), void *user,
                                                 int *columns, hypofab_test_outcome *outcome);
+
+HYPOFAB_END
 
 #endif

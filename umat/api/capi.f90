@@ -50,6 +50,9 @@ module umat_capi
   type(parameter_type), target, protected :: parameter_table(n_parameters) = parameters
   type(sand_type), target, protected :: sand_table(n_sands) = sands
 
+  !> hypofab_about
+  integer(c_int), parameter :: about_nothing = 0, about_parameter = 1, about_variable = 2, about_argument = 3
+
   !> Messages that several procedures give.
   character(len=*), parameter :: domain_message = 'a principal stress became tensile or zero, or the void ratio left (0, inf)'
   character(len=*), parameter :: state_message = &
@@ -57,10 +60,10 @@ module umat_capi
 
   interface
     !> base/message.h
-    subroutine set_message(text, length) bind(C, name='hypofab_set_message')
+    subroutine set_message(about, name, name_length, text, length) bind(C, name='hypofab_set_message')
       import :: c_char, c_int
-      character(kind=c_char), intent(in) :: text(*)
-      integer(c_int), value :: length
+      integer(c_int), value :: about, name_length, length
+      character(kind=c_char), intent(in) :: name(*), text(*)
     end subroutine set_message
   end interface
 
@@ -128,8 +131,9 @@ contains
     real(c_double), intent(in) :: props(n_parameters)
     integer(c_int) :: status
     character(len=256) :: message
-    call check_props(props, status, message)
-    if (status /= status_ok) status = fail(status, trim(message))
+    character(len=8) :: name
+    call check_props(props, status, message, name)
+    if (status /= status_ok) status = fail_about(status, about_parameter, trim(name), trim(message))
   end function material_check
 
   function state_check(props, state) result(status) bind(C, name='hypofab_state_check')
@@ -143,19 +147,19 @@ contains
     if (status /= status_ok) return
     m = material_from_props(props)
     if (.not. all(ieee_is_finite(state%stress))) then
-      status = fail(status_bad_state, 'stress is not finite')
+      status = fail_about(status_bad_state, about_variable, 'stress', 'stress is not finite')
     else if (.not. all(ieee_is_finite(state%delta))) then
-      status = fail(status_bad_state, 'delta is not finite')
+      status = fail_about(status_bad_state, about_variable, 'delta', 'delta is not finite')
     else if (.not. (ieee_is_finite(state%void_ratio) .and. state%void_ratio > 0.0_c_double)) then
       write (value, '(g0.6)') state%void_ratio
-      status = fail(status_bad_state, 'void_ratio = '//trim(value)//' is not admissible, expected void_ratio > 0')
+      status = fail_about(status_bad_state, about_variable, 'void_ratio', 'void_ratio = '//trim(value)//' is not admissible, expected void_ratio > 0')
     else if (.not. in_domain(m, state%stress, state%void_ratio)) then
-      status = fail(status_bad_state, 'stress has a tensile or zero principal value, expected all three compressive'// &
+      status = fail_about(status_bad_state, about_variable, 'stress', 'stress has a tensile or zero principal value, expected all three compressive'// &
                     merge(' (of T - p_t 1)', '               ', m%p_t > 0.0_c_double))
     else if (.not. delta_within_bound(m, state%delta)) then
       write (value, '(g0.6)') norm(state%delta)
       write (bound, '(g0.6)') m%R
-      status = fail(status_bad_state, '|delta| = '//trim(value)//' is not admissible, expected |delta| <= R = '// &
+      status = fail_about(status_bad_state, about_variable, 'delta', '|delta| = '//trim(value)//' is not admissible, expected |delta| <= R = '// &
                     trim(bound))
     end if
   end function state_check
@@ -286,9 +290,19 @@ contains
     integer, intent(in) :: status
     character(len=*), intent(in) :: message
     integer(c_int) :: same
-    call set_message(message, len(message, c_int))
+    call set_message(about_nothing, '', 0_c_int, message, len(message, c_int))
     same = int(status, c_int)
   end function fail
+
+  !> The same, with the parameter, state variable or argument that it is about.
+  function fail_about(status, about, name, message) result(same)
+    integer, intent(in) :: status
+    integer(c_int), intent(in) :: about
+    character(len=*), intent(in) :: name, message
+    integer(c_int) :: same
+    call set_message(about, name, len(name, c_int), message, len(message, c_int))
+    same = int(status, c_int)
+  end function fail_about
 
   !> The same for a number outside 0 .. n-1.
   function fail_number(status, what, number, n) result(same)

@@ -112,10 +112,12 @@ contains
   !> @param props   parameters in the order of PROPS
   !> @param status  status_ok or status_bad_material
   !> @param message names the parameter, its value and what was expected; '' when all is well
-  pure subroutine check_props(props, status, message)
+  !> @param name    of the parameter, the first of two that contradict each other; '' when all is well
+  pure subroutine check_props(props, status, message, name)
     real(wp), intent(in) :: props(n_parameters)
     integer, intent(out) :: status
     character(len=*), intent(out) :: message
+    character(len=*), intent(out), optional :: name
     integer :: i
     ! Written into a buffer of fixed length: with function results of deferred length, concatenated, threads of a program
     ! compiled by gfortran 12 were seen to overrun each other's texts.
@@ -123,6 +125,7 @@ contains
 
     status = status_bad_material
     text = ''
+    if (present(name)) name = ''
     do i = 1, n_parameters
       if (parameters(i)%intergranular .and. .not. intergranular_is_on(props)) cycle
       if (ieee_is_finite(props(i))) then ! before any comparison: one with NaN would trap
@@ -131,19 +134,24 @@ contains
       write (text, '(2a, g0.6, a, g0.6, 3a, g0.6)') name_of(i), ' = ', props(i), ' is not admissible, expected ', &
         parameters(i)%lower, ' <= ', name_of(i), ' <= ', parameters(i)%upper
       message = text
+      if (present(name)) name = name_of(i)
       return
     end do
     if (props(i_e_d0) >= props(i_e_c0)) then
+      i = i_e_d0
       write (text, contradiction) name_of(i_e_d0), props(i_e_d0), name_of(i_e_c0), props(i_e_c0), 'e_d0 < e_c0'
     else if (props(i_e_c0) > props(i_e_i0)) then
+      i = i_e_c0
       write (text, contradiction) name_of(i_e_c0), props(i_e_c0), name_of(i_e_i0), props(i_e_i0), 'e_c0 <= e_i0'
     else if (stiffness_bracket(props) <= 0.0_wp) then
+      i = i_phi_c
       write (text, contradiction) name_of(i_phi_c), props(i_phi_c), name_of(i_alpha), props(i_alpha), &
         '3 + a^2 - a sqrt(3) ((e_i0 - e_d0)/(e_c0 - e_d0))^alpha > 0 (stiffness would be negative)'
     else
       status = status_ok
     end if
     message = text
+    if (present(name) .and. status /= status_ok) name = name_of(i)
   end subroutine check_props
 
   !> Name of a parameter without the null character and blanks.
