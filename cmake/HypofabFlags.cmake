@@ -9,11 +9,11 @@ set(CMAKE_C_STANDARD_REQUIRED ON)
 add_library(hypofab_flags INTERFACE)
 target_compile_options(
   hypofab_flags
-  INTERFACE $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra>
+  INTERFACE $<$<COMPILE_LANG_AND_ID:C,GNU,Clang,AppleClang>:-Wall -Wextra>
             # -frecursive: every local variable on the stack, as Fortran 2018 has it; threads call the UMAT at once.
-            $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -frecursive -fimplicit-none -Wall -Wextra -ffree-line-length-none>
+            $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=f2018 -frecursive -fimplicit-none -Wall -Wextra -ffree-line-length-none>
             # Traps for what the model must never do; the host of a UMAT may run with them.
-            $<$<AND:$<CONFIG:Debug>,$<COMPILE_LANGUAGE:Fortran>>:-fcheck=all -ffpe-trap=invalid -fbacktrace>)
+            $<$<AND:$<CONFIG:Debug>,$<COMPILE_LANG_AND_ID:Fortran,GNU>>:-fcheck=all -ffpe-trap=invalid -fbacktrace>)
 
 if(HYPOFAB_WERROR)
   target_compile_options(hypofab_flags INTERFACE -Werror)

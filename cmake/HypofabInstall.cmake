@@ -1,4 +1,4 @@
-# Install rules: libraries, program, header, Fortran modules, pkg-config files and the CMake package `hypofab`.
+# Install rules: libraries, program, headers, pkg-config files and the CMake package `hypofab`.
 # Nothing installed holds an absolute path: the tree may be moved after installation.
 include(CMakePackageConfigHelpers)
 
@@ -21,8 +21,6 @@ install(
 install(FILES cli/completion/_hypofab DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(FILES cli/completion/hypofab.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY ${CMAKE_BINARY_DIR}/modules/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hypofab
-        FILES_MATCHING PATTERN *.mod)
 
 # CMake: find_package(hypofab) gives hypofab::hypofab (C interface) and hypofab::umat (FE hosts).
 install(EXPORT hypofab FILE hypofab-config.cmake NAMESPACE hypofab:: DESTINATION ${package_dir})

@@ -1,7 +1,7 @@
 !> Strain increments of many material points side by side: the same integration as update_state, one point per lane of
 !> the vector registers.
 !>
-!> A group of points goes through rounds. In a round every point tries one step (batch_step.F90); points whose increment
+!> A group of points goes through rounds. In a round every point tries one step (step.f90); points whose increment
 !> is done leave, the others close ranks, so that no lane runs empty while others need more steps. Points that the kernel
 !> does not decide (input that is not finite, states outside the domain or close to its border, ...) are left to
 !> update_state. What happens to a point depends on that point alone: not on its lane, its neighbours or the group.

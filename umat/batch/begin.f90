@@ -1,8 +1,8 @@
 !> The start of an increment, and of a segment on one branch, of many points side by side: update.f90 and delta_path.f90,
 !> written without branches.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_BEGIN).
-module HYPOFAB_BATCH_BEGIN
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_begin_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use umat_batch_lanes
   use umat_material, only: material_type
@@ -215,6 +215,6 @@ contains
     end do
   end subroutine begin_segment
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_BEGIN
+end module umat_batch_begin_portable

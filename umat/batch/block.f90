@@ -1,6 +1,6 @@
 !> The update of a block of points, one after the other.
 !>
-!> The libraries hold batch_block.F90 in place of this file, the same module over the update of many points side by side.
+!> The libraries hold batch_block.f90 in place of this file, the same module over the update of many points side by side.
 !> This one is for the single file of Abaqus users, which a compiler must take without options of ours.
 module umat_block
   use umat_kinds, only: wp

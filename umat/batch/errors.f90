@@ -1,10 +1,10 @@
 !> What the errors of a step of many points side by side are, and what they ask of the next: missing_of, tail and growth_after
 !> of collocation.f90 and step.f90.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_ERRORS).
-module HYPOFAB_BATCH_ERRORS
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_errors_portable
   use, intrinsic :: iso_fortran_env, only: real64
-  use HYPOFAB_BATCH_REACH, only: nodes_type
+  use umat_batch_reach_portable, only: nodes_type
   use umat_batch_lanes
   use umat_lobatto, only: rules, most_nodes, rule_long
   use umat_material, only: material_type
@@ -120,6 +120,6 @@ contains
     end do
   end subroutine growth_after
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_ERRORS
+end module umat_batch_errors_portable

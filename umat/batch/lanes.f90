@@ -1,4 +1,4 @@
-!> Where the numbers of a material point sit while many points are integrated side by side (batch.F90, batch_step.F90).
+!> Where the numbers of a material point sit while many points are integrated side by side (batch.F90, step.f90).
 !>
 !> A point occupies a lane; lanes(lane, field) keeps each field of neighbouring lanes together, as vector registers want.
 module umat_batch_lanes
@@ -34,7 +34,7 @@ module umat_batch_lanes
   integer, parameter :: n_fields = 45
 
   !> Tags: kind of path, as in delta_path.f90, what became of an attempted step, and whether the segment has been tried in one
-  !> step (batch_short.F90). As wide as a field, so that they fill masks without conversion.
+  !> step (short.f90). As wide as a field, so that they fill masks without conversion.
   integer, parameter :: t_kind = 1, t_outcome = 2, t_short = 3, n_tags = 3
   integer(int64), parameter :: short_untried = 0_int64, short_tried = 1_int64
   integer(int64), parameter :: kind_fixed = 0_int64, kind_straight = 1_int64, kind_axis = 2_int64, kind_plane = 3_int64
@@ -48,6 +48,6 @@ module umat_batch_lanes
   real(real64), parameter :: nothing = 1.0e-290_real64
   !> A path further out is left to the scalar update.
   real(real64), parameter :: largest_x = 600.0_real64
-  !> Reach of the series in batch_series.inc.
+  !> Reach of the series in series.inc.
   real(real64), parameter :: reach_of_exp = 0.25_real64, reach_of_log = 0.125_real64
 end module umat_batch_lanes

@@ -1,10 +1,10 @@
 !> The rate of stress of many points side by side, linear in stress and void ratio about the start of a step: sensitivities
 !> in wolffersdorff.f90, change_with_state in variation.f90.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_LINEAR).
-module HYPOFAB_BATCH_LINEAR
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_linear_portable
   use, intrinsic :: iso_fortran_env, only: real64
-  use HYPOFAB_BATCH_RATE, only: origin_type
+  use umat_batch_rate_portable, only: origin_type
   use umat_batch_lanes
   use umat_material, only: material_type
   use umat_wolffersdorff, only: isotropic
@@ -139,4 +139,4 @@ real(wp) :: n, alpha, beta, e_d0, e_i0, steepness, d1, d2, d3, d4, d5, d6, squar
     end do
   end subroutine add_linear
 
-end module HYPOFAB_BATCH_LINEAR
+end module umat_batch_linear_portable

@@ -4,8 +4,8 @@
 !> Where a step is short against the path, as most are, the path at a node follows by series from what is known at the
 !> step's start: no logarithm or exponential is taken. Lanes for which the series do not reach are done in full.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_PATH).
-module HYPOFAB_BATCH_PATH
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_path_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use umat_batch_lanes
   use umat_delta_path, only: axis_power
@@ -178,6 +178,6 @@ contains
     end do
   end subroutine carry_node
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_PATH
+end module umat_batch_path_portable

@@ -3,8 +3,8 @@
 !> Pressure and void ratio change little within a step. Their powers follow by series from those at the step's start;
 !> lanes for which the series do not reach are done in full.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_RATE).
-module HYPOFAB_BATCH_RATE
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_rate_portable
   use, intrinsic :: iso_fortran_env, only: real64
   use umat_batch_lanes
   use umat_border, only: reach_of_border
@@ -320,6 +320,6 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
     end do
   end subroutine scalars_in_full
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_RATE
+end module umat_batch_rate_portable

@@ -1,10 +1,10 @@
 !> How far a step of many points side by side goes, and what is known at its nodes without the stress: reach in step.f90,
 !> place_nodes in collocation.f90.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_REACH).
-module HYPOFAB_BATCH_REACH
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_reach_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use HYPOFAB_BATCH_PATH, only: node_type, path_node
+  use umat_batch_path_portable, only: node_type, path_node
   use umat_batch_lanes
   use umat_integration, only: nearly
   use umat_lobatto, only: lobatto_type, rules, rule_long, most_nodes
@@ -191,6 +191,6 @@ contains
     end do
   end subroutine operands
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_REACH
+end module umat_batch_reach_portable

@@ -1,10 +1,10 @@
 !> Short legs of many points side by side, each in one step: short_leg.f90, written without branches.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_SHORT).
-module HYPOFAB_BATCH_SHORT
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_short_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use HYPOFAB_BATCH_LINEAR, only: slopes_type, slopes_at, add_linear
-  use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
+  use umat_batch_linear_portable, only: slopes_type, slopes_at, add_linear
+  use umat_batch_rate_portable, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
   use umat_batch_lanes
   use umat_border, only: reach_of_border
   use umat_from_zero, only: from_zero_type, from_zero, terms
@@ -349,6 +349,6 @@ contains
     value = x * (1.0_wp + x * (1.0_wp / 2 + x * (1.0_wp / 6 + x * (1.0_wp / 24 + x * (1.0_wp / 120)))))
   end function swelling
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_SHORT
+end module umat_batch_short_portable

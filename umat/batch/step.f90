@@ -4,14 +4,14 @@
 !> compiler's vectoriser takes every loop over lanes. Arguments of logarithms and divisors are kept positive where a lane
 !> leaves the domain; such lanes are marked and done again by the scalar update.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (HYPOFAB_BATCH_STEP).
-module HYPOFAB_BATCH_STEP
+!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
+module umat_batch_step_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use HYPOFAB_BATCH_ERRORS, only: missing_of, growth_after, size_of
-  use HYPOFAB_BATCH_LINEAR, only: slopes_type, slopes_at, add_linear
-  use HYPOFAB_BATCH_PATH, only: node_type, carry_node
-  use HYPOFAB_BATCH_RATE, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
-  use HYPOFAB_BATCH_REACH, only: nodes_type, reach
+  use umat_batch_errors_portable, only: missing_of, growth_after, size_of
+  use umat_batch_linear_portable, only: slopes_type, slopes_at, add_linear
+  use umat_batch_path_portable, only: node_type, carry_node
+  use umat_batch_rate_portable, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
+  use umat_batch_reach_portable, only: nodes_type, reach
   use umat_batch_lanes
   use umat_border, only: reach_of_border
   use umat_lobatto, only: lobatto_type, rules, most_nodes, rule_long
@@ -332,6 +332,6 @@ contains
     end do
   end subroutine move_delta
 
-  include 'batch_series.inc'
+  include 'series.inc'
 
-end module HYPOFAB_BATCH_STEP
+end module umat_batch_step_portable

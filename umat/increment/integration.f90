@@ -15,7 +15,7 @@ module umat_integration
   implicit none
   private
   public :: options_type, report_type, integrate
-  ! For many points side by side (batch_begin.F90).
+  ! For many points side by side (batch/begin.f90).
   public :: vanishing, first_step, first_from_zero, nearly
 
   !> Options of an update.

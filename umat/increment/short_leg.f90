@@ -4,7 +4,7 @@
 !> stays as it is. The stress is collocated at Radau's nodes with the rate linear in stress and void ratio about the start.
 !> What the linear model leaves out grows like the square of the way and is evaluated once, at the last node. theory.md, section 4.
 !>
-!> The update of many points side by side (batch_short.F90) takes the same step.
+!> The update of many points side by side (batch/short.f90) takes the same step.
 module umat_short_leg
   use umat_collocation, only: start_type
   use umat_from_zero, only: from_zero_type, from_zero, terms

@@ -13,7 +13,7 @@ module umat_step
   implicit none
   private
   public :: step_type, reach, try, size_of, growth_of
-  ! The update of many points side by side (batch_step.F90) takes the same steps.
+  ! The update of many points side by side (batch/step.f90) takes the same steps.
   public :: least_share, most_share, most_sweeps, good_sweeps, rounding, close_enough, worth_trying, too_many_sweeps
   public :: least_growth, most_growth, safety, most_trials, most_iterations, slowest, inner_square, part_of_pressure
 
