@@ -1,5 +1,5 @@
 /* Envelopes of a study: compute their series and write their files. */
-#include "deck/output/probe.h"
+#include "deck/output/probe_result.h"
 
 #include <math.h>
 #include <stdlib.h>

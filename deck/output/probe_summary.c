@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "deck/output/json_values.h"
-#include "deck/output/probe.h"
+#include "deck/output/probe_result.h"
 
 static json_t *tensors(const double (*tensor)[6], int n, double factor) {
   json_t *array = json_array();

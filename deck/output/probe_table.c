@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "deck/output/output.h"
-#include "deck/output/probe.h"
+#include "deck/output/probe_result.h"
 
 /* Most numbers in a row. */
 #define MOST_COLUMNS 64

@@ -1,4 +1,4 @@
-#include "deck/output/run.h"
+#include "deck/output/run_result.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 #include "deck/output/json_values.h"
-#include "deck/output/run.h"
+#include "deck/output/run_result.h"
 #include "deck/output/stiffness.h"
 
 static json_t *row_object(const hypofab_study *study, unsigned test, const hypofab_row *row) {

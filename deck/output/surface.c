@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "deck/output/output.h"
-#include "deck/output/probe.h"
+#include "deck/output/probe_result.h"
 
 /* One piece while it is written. */
 typedef struct piece {

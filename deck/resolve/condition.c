@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "deck/resolve/step.h"
+#include "deck/resolve/step_parts.h"
 
 /* Most parameters of a preset. */
 #define MOST_ARGUMENTS 16

@@ -1,7 +1,7 @@
 /* Cycles of a step, and what ends a step before its own end. */
 #include <math.h>
 
-#include "deck/resolve/step.h"
+#include "deck/resolve/step_parts.h"
 
 /* Cycles of a step that only its stops end. */
 #define UNTIL_STOPPED 1000000000u

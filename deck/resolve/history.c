@@ -4,7 +4,7 @@
 
 #include "base/message.h"
 #include "base/text/table.h"
-#include "deck/resolve/step.h"
+#include "deck/resolve/step_parts.h"
 
 /* Columns a table may have besides time: the quantities that a condition can prescribe. */
 static const hypofab_quantity prescribable[] = {

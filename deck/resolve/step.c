@@ -1,4 +1,4 @@
-#include "deck/resolve/step.h"
+#include "deck/resolve/step_parts.h"
 
 #include <math.h>
 #include <stdarg.h>

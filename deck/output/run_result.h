@@ -1,9 +1,9 @@
 /**
- * @file run.h
+ * @file run_result.h
  * @brief What a run of a study leaves behind for its summary.
  */
-#ifndef HYPOFAB_DECK_RUN_H
-#define HYPOFAB_DECK_RUN_H
+#ifndef HYPOFAB_DECK_RUN_RESULT_H
+#define HYPOFAB_DECK_RUN_RESULT_H
 
 #include "base/message.h"
 #include "deck/resolve/study.h"

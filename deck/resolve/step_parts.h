@@ -1,9 +1,9 @@
 /**
- * @file step.h
+ * @file step_parts.h
  * @brief The parts of a step of a deck, each resolved in a file of its own.
  */
-#ifndef HYPOFAB_DECK_STEP_H
-#define HYPOFAB_DECK_STEP_H
+#ifndef HYPOFAB_DECK_STEP_PARTS_H
+#define HYPOFAB_DECK_STEP_PARTS_H
 
 #include "deck/resolve/study.h"
 

@@ -1,9 +1,9 @@
 /**
- * @file probe.h
+ * @file probe_result.h
  * @brief What the envelopes of a study leave behind for their files: table, surfaces, summary.
  */
-#ifndef HYPOFAB_DECK_PROBE_H
-#define HYPOFAB_DECK_PROBE_H
+#ifndef HYPOFAB_DECK_PROBE_RESULT_H
+#define HYPOFAB_DECK_PROBE_RESULT_H
 
 #include <stdio.h>
 
