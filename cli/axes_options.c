@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/contact_options.h"
+#include "cli/parse.h"
 
 enum { KEY_AXES = 0x300, KEY_TURN };
 

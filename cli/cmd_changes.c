@@ -7,6 +7,7 @@
 #include "cli/changes_report.h"
 #include "cli/commands.h"
 #include "cli/contact_options.h"
+#include "cli/parse.h"
 #include "cli/report.h"
 
 enum { KEY_JSON = 0x100, KEY_CSV, KEY_ANGLES, KEY_STRAIN, KEY_PLANE, KEY_BINS, KEY_IGNORE_IMAGES, KEY_PRINTED };

@@ -10,7 +10,9 @@
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/delta_formats.h"
+#include "cli/parse.h"
 #include "cli/report.h"
+#include "cli/sample_report.h"
 #include "cli/uncertainty_options.h"
 
 enum {

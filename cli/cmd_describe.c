@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/describe_report.h"
+#include "cli/parse.h"
 #include "cli/report.h"
 
 enum { KEY_JSON = 0x100, KEY_CSV, KEY_FRICTION, KEY_ANGLE, KEY_SLIDING, KEY_BINS, KEY_TOGETHER };

@@ -6,7 +6,9 @@
 #include "cli/cmd_fabric.h"
 #include "cli/commands.h"
 #include "cli/contact_options.h"
+#include "cli/parse.h"
 #include "cli/report.h"
+#include "cli/sample_report.h"
 
 enum { KEY_JSON = 0x100, KEY_BINS };
 

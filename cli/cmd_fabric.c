@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/report.h"
+#include "cli/sample_report.h"
 #include "cli/uncertainty_options.h"
 
 static json_t *count(int64_t value) { return value > 0 ? json_integer((json_int_t)value) : json_null(); }

@@ -12,15 +12,6 @@
 /** A fabric as a JSON object; numbers that are not known are null. NULL when memory ran out. */
 json_t *fabric_to_json(const hypofab_fabric *fabric);
 
-/** Add what is known of a sample to the JSON object of its fabric. */
-void sample_to_json(const hypofab_sample *sample, const hypofab_fabric *fabric, json_t *object);
-
-/** What was found while reading contacts, as a JSON object. NULL when memory ran out. */
-json_t *reading_to_json(const hypofab_contact_report *report);
-
-/** Print what is known of a sample below its fabric. */
-void print_sample(const hypofab_sample *sample, const hypofab_fabric *fabric);
-
 /** Print a readable table of a fabric to standard output. */
 void print_fabric(const hypofab_fabric *fabric);
 

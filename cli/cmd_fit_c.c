@@ -2,11 +2,12 @@
 #include <argp.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/commands.h"
-#include "cli/contact_options.h"
+#include "cli/parse.h"
 #include "cli/report.h"
 #include "hypofab.h"
 

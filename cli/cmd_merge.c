@@ -5,6 +5,7 @@
 #include "cli/cmd_fabric.h"
 #include "cli/commands.h"
 #include "cli/report.h"
+#include "cli/sample_report.h"
 #include "cli/uncertainty_options.h"
 
 enum { KEY_JSON = 0x100, KEY_PARTIAL };

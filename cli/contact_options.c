@@ -1,10 +1,10 @@
 #include "cli/contact_options.h"
 
-#include "cli/format_options.h"
-
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "cli/format_options.h"
+#include "cli/parse.h"
 
 enum { KEY_ID1 = 0x200, KEY_ID2, KEY_NX, KEY_NY, KEY_NZ, KEY_SEPARATOR, KEY_PARTICLES, KEY_TENSOR };
 
@@ -27,24 +27,6 @@ static const struct argp_option options[] = {
      .arg = "CHARACTER",
      .doc = "Between columns: a comma, a semicolon, tab or blank (default: what FILE shows)"},
     {0}};
-
-double parse_number(struct argp_state *state, const char *option, const char *text) {
-  char *end;
-  double value = strtod(text, &end);
-  if (end == text || *end != '\0' || !isfinite(value))
-    argp_error(state, "%s: '%s' is not a number", option, text); /* does not return */
-  return value;
-}
-
-void parse_tensor(struct argp_state *state, const char *option, const char *text, double tensor[6]) {
-  char *copy = strdup(text), *rest = copy;
-  if (!copy) argp_failure(state, 3, 0, "out of memory");
-  int count = 0;
-  for (char *part; (part = strsep(&rest, ",")); count++)
-    if (count < 6) tensor[count] = parse_number(state, option, part);
-  if (count != 6) argp_error(state, "%s: %d numbers in '%s'; expected six, xx,yy,zz,xy,xz,yz", option, count, text);
-  free(copy);
-}
 
 static char parse_separator(struct argp_state *state, const char *text) {
   if (!strcmp(text, "tab") || !strcmp(text, "\\t")) return '\t';

@@ -27,12 +27,6 @@ typedef struct contact_options {
 /** Child parser for argp; its input is a contact_options. */
 extern const struct argp contact_argp;
 
-/** A finite number; argp's usage error and exit code 2 otherwise. */
-double parse_number(struct argp_state *state, const char *option, const char *text);
-
-/** Six finite numbers xx,yy,zz,xy,xz,yz; argp's usage error otherwise. */
-void parse_tensor(struct argp_state *state, const char *option, const char *text, double tensor[6]);
-
 /** The fabric the user asked for. */
 hypofab_status contact_options_fabric(const contact_options *options, hypofab_fabric *fabric);
 

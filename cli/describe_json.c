@@ -5,6 +5,7 @@
 #include "cli/cmd_fabric.h"
 #include "cli/describe_report.h"
 #include "cli/report.h"
+#include "cli/sample_report.h"
 #include "cli/uncertainty_options.h"
 
 static bool in_plane(const char *name) {

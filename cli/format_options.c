@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/contact_options.h"
+#include "cli/parse.h"
 #include "cli/progress.h"
 
 enum {

@@ -1,8 +1,9 @@
-/* How a sample is shown beside its fabric: void ratio, rattlers, and what was found while reading. */
+/* Void ratio, rattlers, and what was found while reading. */
+#include "cli/sample_report.h"
+
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/cmd_fabric.h"
 #include "cli/report.h"
 
 json_t *reading_to_json(const hypofab_contact_report *report) {

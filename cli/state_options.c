@@ -1,6 +1,6 @@
 #include "cli/state_options.h"
 
-#include "cli/contact_options.h"
+#include "cli/parse.h"
 
 enum { KEY_SAND = 0x300, KEY_STRESS, KEY_PRESSURE, KEY_VOID_RATIO, KEY_DELTA, KEY_PLAIN, KEY_COMPRESSION };
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/parse.h"
 #include "cli/report.h"
 
 enum { KEY_BOOTSTRAP = 0x300, KEY_SEED, KEY_BLOCKS, KEY_LEVEL };
