@@ -9,7 +9,7 @@
 #ifndef HYPOFAB_DRIVER_SENSITIVITY_H
 #define HYPOFAB_DRIVER_SENSITIVITY_H
 
-#include "driver/step/leg.h"
+#include "driver/step/run.h"
 #include "driver/step/schedule.h"
 
 /**

@@ -5,7 +5,7 @@
 #ifndef HYPOFAB_DRIVER_CYCLE_H
 #define HYPOFAB_DRIVER_CYCLE_H
 
-#include "driver/step/leg.h"
+#include "driver/step/run.h"
 
 /** A cyclic step, its reversals worked out at its start. */
 typedef struct cycle_plan {

@@ -5,26 +5,14 @@
 #include "driver/control/course.h"
 #include "driver/sensitivity/sensitivity.h"
 #include "driver/step/cycle.h"
+#include "driver/step/deliver.h"
 #include "driver/step/element_test.h"
 #include "driver/step/finding.h"
+#include "driver/step/leg.h"
 #include "driver/step/step.h"
 
 /* An undrained step ends when p has fallen to this part of what it was: little above the integrator's tolerance. */
 static const double lowest_part_of_p = 1e-5;
-
-/* Non-zero: the sink wants no more. */
-static int send(run *r, int event) {
-  hypofab_row row;
-  if (!r->sink && !r->sensitivity) return 0;
-  quantity_row(&r->observer, r->time, &r->state, r->step_number, &row);
-  row.event = event;
-  row.stop = event == HYPOFAB_EVENT_STOP ? r->stop : -1;
-  return r->sensitivity ? sensitivity_deliver(r, &row) : r->sink(&row, r->user);
-}
-
-hypofab_status run_deliver(run *r, int event) {
-  return send(r, event) ? hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted at time %g", r->time) : HYPOFAB_OK;
-}
 
 /* Let the caller interrupt between legs. */
 static hypofab_status watch(run *r, double done) {
@@ -105,7 +93,7 @@ static hypofab_status run_step(run *r, const hypofab_step *step) {
   if (!status) return run_deliver(r, r->stop >= 0 ? HYPOFAB_EVENT_STOP : HYPOFAB_EVENT_END);
   if (status >= HYPOFAB_BAD_MATERIAL || status == HYPOFAB_INTERRUPTED) return status;
   status = finding_explain(r, step, status);
-  send(r, -(int)status); /* the finding stands, whether the sink wants more or not */
+  run_send(r, -(int)status); /* the finding stands, whether the sink wants more or not */
   return status;
 }
 

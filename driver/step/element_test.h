@@ -2,7 +2,7 @@
 #ifndef HYPOFAB_DRIVER_ELEMENT_TEST_H
 #define HYPOFAB_DRIVER_ELEMENT_TEST_H
 
-#include "driver/step/leg.h"
+#include "driver/step/run.h"
 
 /** The derivatives a test is run with. */
 typedef struct wanted_derivatives {

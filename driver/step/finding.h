@@ -2,7 +2,7 @@
 #ifndef HYPOFAB_DRIVER_FINDING_H
 #define HYPOFAB_DRIVER_FINDING_H
 
-#include "driver/step/leg.h"
+#include "driver/step/run.h"
 
 /**
  * @brief Complete the last message with the step, the state of the run and an advice.

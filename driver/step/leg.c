@@ -7,6 +7,7 @@
 #include "driver/control/control.h"
 #include "driver/control/course.h"
 #include "driver/sensitivity/sensitivity.h"
+#include "driver/step/deliver.h"
 #include "driver/step/events.h"
 #include "driver/step/schedule.h"
 

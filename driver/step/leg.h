@@ -6,30 +6,7 @@
 #ifndef HYPOFAB_DRIVER_LEG_H
 #define HYPOFAB_DRIVER_LEG_H
 
-#include "driver/integrate/integrate.h"
-
-/** The derivatives of a test (driver/sensitivity/sensitivity.h). */
-typedef struct sensitivity sensitivity;
-
-/** A test under way. */
-typedef struct run {
-  observer observer;
-  integrator *it;
-  hypofab_row_sink sink;
-  void *user;
-  int (*watch)(int step, double done, void *user); /**< may be NULL */
-  int step_number;                                 /**< from 0 */
-  double time;
-  test_state state;
-  double step_start[HYPOFAB_MAX_STOPS];    /**< of the stops' quantities: at the start of the step */
-  double last_reversal[HYPOFAB_MAX_STOPS]; /**< and at the last reversal */
-  double lowest_p;                         /**< an undrained step ends here; 0: no such bound */
-  int stop;                                /**< the stop that ended the step; -1: none yet */
-  sensitivity *sensitivity;                /**< NULL: none are wanted */
-} run;
-
-/** Hand a row to the sink: HYPOFAB_INTERRUPTED when it wants no more. @param event hypofab_event, or minus a status */
-hypofab_status run_deliver(run *r, int event);
+#include "driver/step/run.h"
 
 /**
  * @brief Integrate a leg to its until, or to the first of its stops (run.stop then says which). Delivers the rows on

@@ -6,7 +6,7 @@
 #define HYPOFAB_DRIVER_SCHEDULE_H
 
 #include "driver/step/events.h"
-#include "driver/step/leg.h"
+#include "driver/step/run.h"
 
 /** When a leg ends and when rows are due. */
 typedef struct schedule {
