@@ -4,7 +4,7 @@
 
 #include "base/message.h"
 #include "base/text/table.h"
-#include "deck/calibration/calibration.h"
+#include "deck/calibration/calibration_resolve.h"
 
 /* Columns that grow together. */
 typedef struct columns {

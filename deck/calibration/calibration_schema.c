@@ -1,5 +1,7 @@
 #include "deck/calibration/calibration_schema.h"
 
+#include "deck/source/json_schema.h"
+
 #define OPTIONAL CYAML_FLAG_OPTIONAL
 #define OPTIONAL_POINTER (CYAML_FLAG_OPTIONAL | CYAML_FLAG_POINTER)
 #define OPTIONAL_STRICT (CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT)
@@ -104,3 +106,8 @@ static const cyaml_schema_field_t calibration_fields[] = {
 
 const cyaml_schema_value_t deck_calibration_schema = {
     CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, deck_calibration, calibration_fields)};
+
+char *hypofab_calibration_schema(void) {
+  return json_schema_text(&deck_calibration_schema, "hypofab calibration",
+                          "Parameters from laboratory tests: docs/calibration.md");
+}

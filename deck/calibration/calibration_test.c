@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/calibration/calibration.h"
+#include "deck/calibration/calibration_resolve.h"
+#include "deck/resolve/resolve.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 

@@ -3,7 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "deck/calibration/calibration.h"
+#include "deck/calibration/calibration_text.h"
+#include "deck/resolve/study.h"
 
 static void write_parameters(const hypofab_calibration *c, FILE *out) {
   fputs("| parameter | start | found | standard error | bounds |\n|---|---|---|---|---|\n", out);

@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/calibration/calibration.h"
+#include "deck/calibration/calibration_resolve.h"
+#include "deck/resolve/resolve.h"
 
 /* Positions in hypofab_material. */
 enum { E_D0 = 4, E_C0 = 5, E_I0 = 6, LAST_OF_MODEL = 8, FIRST_INTERGRANULAR = 9, LAST_INTERGRANULAR = 13 };

@@ -6,6 +6,7 @@
 
 #include "deck/output/output.h"
 #include "deck/output/sensitivity_table.h"
+#include "deck/resolve/resolve.h"
 
 /* One test while it runs: what the row sink needs. */
 typedef struct run {

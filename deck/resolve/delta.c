@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 
 /* Of the weight function f(a) = 1 - exp(-a/c), paper 000. */
 #define DEFAULT_C 0.05

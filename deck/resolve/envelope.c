@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 
 /* Directions when the deck does not say how many. */
 enum { PROBES_IN_PLANE = 360, PROBES_ON_SPHERE = 1000, PROBES_OF_ALL = 2000 };

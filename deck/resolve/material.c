@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 
 double deck_kpa(deck_unit unit) { return unit == DECK_PA ? 1e3 : unit == DECK_MPA ? 1e-3 : 1.0; }
 

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 #include "driver/control/control.h"
 
 /* The rate of a quantity when the conditions of a step prescribe one, NaN when they do not. */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 
 static hypofab_status refuse(const char *name, const char *why) {
   return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "'%s' %s", name, why);
@@ -109,61 +109,5 @@ hypofab_status study_variations(const hypofab_study *study, int index, const cha
     free(all);
   else
     *variations = all;
-  return status;
-}
-
-/* Between the driver and the caller's sink. */
-typedef struct delivery {
-  const hypofab_study *study;
-  hypofab_sensitivity_sink sink;
-  int (*watch)(int step, double done, void *user);
-  void *user;
-  int n;
-  double *derivative;
-} delivery;
-
-/* Zero without a sign, as in files. */
-static double in_sign(double sign, double value) { return value == 0 ? 0 : sign * value; }
-
-static int deliver(const hypofab_row *row, const double *derivative, void *user) {
-  const delivery *to = user;
-  hypofab_row turned = *row;
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
-    const double sign = study_quantity_sign(to->study, (hypofab_quantity)i);
-    turned.value[i] = in_sign(sign, row->value[i]);
-    for (int k = i; k < to->n * HYPOFAB_N_QUANTITIES; k += HYPOFAB_N_QUANTITIES)
-      to->derivative[k] = in_sign(sign, derivative[k]);
-  }
-  return to->sink(&turned, to->derivative, to->user);
-}
-
-static int watch(int step, double done, void *user) {
-  const delivery *to = user;
-  return to->watch(step, done, to->user);
-}
-
-hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int test, int n_names,
-                                                const char *const *names, hypofab_sensitivity_sink sink,
-                                                int (*watched)(int step, double done, void *user), void *user,
-                                                int *columns, hypofab_test_outcome *outcome) {
-  if (!is_test(study, test) || !sink)
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "expected a loaded study, a number of one of its tests, and a sink");
-  const study_test *resolved = &study->tests[test];
-  const study_state *state = &study->states[resolved->state];
-  hypofab_variation *variations;
-  hypofab_status status = study_variations(study, test, names, &n_names, &variations);
-  if (status) return status;
-  if (columns) *columns = study_columns(resolved);
-  delivery to = {study, sink, watched, user, n_names, NULL};
-  to.derivative = calloc((size_t)n_names + 1, HYPOFAB_N_QUANTITIES * sizeof *to.derivative);
-  hypofab_test_options options = resolved->options;
-  options.watch = watched ? watch : NULL;
-  if (to.derivative)
-    status = hypofab_test_sensitivities(&study->materials[state->material], &state->initial, resolved->steps,
-                                        (int)resolved->n_steps, &options, n_names, variations, deliver, &to, outcome);
-  else
-    status = hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for %d derivatives", n_names);
-  free(variations);
-  free(to.derivative);
   return status;
 }

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 
 /* An isotropic state by p, or six components in the deck's sign. */
 static hypofab_status resolve_stress(const hypofab_study *study, const deck_source *source, unsigned index,

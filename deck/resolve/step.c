@@ -1,38 +1,11 @@
+#include "deck/resolve/resolve.h"
 #include "deck/resolve/step_parts.h"
-
-#include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "base/message.h"
 
 /* Result rows of a step, and of each half cycle, when the deck says neither `rows` nor `every`. */
 #define DEFAULT_ROWS 100
 #define CYCLE_ROWS 20
 /* Integer rows are int in the library; more than this is a slip of the pen. */
 #define MOST_ROWS 100000000
-
-deck_key step_key(step_place place, const char *format, ...) {
-  char rest[120];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(rest, sizeof rest, format, arguments);
-  va_end(arguments);
-  return deck_key_format("tests[%u].steps[%u]%s", place.test, place.step, rest);
-}
-
-hypofab_status study_resolve_quantity(const deck_source *source, deck_key key, const char *name,
-                                      hypofab_quantity *quantity) {
-  *quantity = hypofab_quantity_find(name);
-  if (*quantity != HYPOFAB_N_QUANTITIES) return HYPOFAB_OK;
-  char known[640] = "";
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", hypofab_quantity_name(i));
-  }
-  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is not a quantity, expected one of %s", name, known);
-}
 
 static hypofab_status resolve_rows(const deck_source *source, step_place place, const deck_step *given,
                                    hypofab_step *step) {

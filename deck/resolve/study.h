@@ -8,7 +8,6 @@
 #include <stdbool.h>
 
 #include "deck/source/schema.h"
-#include "deck/source/source.h"
 #include "hypofab.h"
 
 /** A state, and the fabric its intergranular strain came from. */
@@ -97,46 +96,5 @@ static inline int study_columns(const study_test *test) {
 
 /** Has a material intergranular strain? (m_R <= 0.5 switches it off.) */
 static inline bool study_has_intergranular(const hypofab_material *material) { return material->m_R > 0.5; }
-
-/* Each resolves one list of the deck into the study; arrays are allocated, references are to lists resolved before.
- * Errors: a refusal of the deck with file, line, key, value and what was expected; HYPOFAB_NO_MEMORY. */
-hypofab_status study_resolve_materials(hypofab_study *study, const deck_source *source);
-hypofab_status study_resolve_states(hypofab_study *study, const deck_source *source);
-hypofab_status study_resolve_tests(hypofab_study *study, const deck_source *source);
-hypofab_status study_resolve_envelopes(hypofab_study *study, const deck_source *source);
-
-/** Parameters of a built-in sand in a deck's unit of stress; HYPOFAB_BAD_MATERIAL. */
-hypofab_status deck_sand(const char *name, deck_unit unit, hypofab_material *material);
-
-/** One kPa in a deck's unit of stress. */
-double deck_kpa(deck_unit unit);
-
-/** Is the name of entry number index of "tests" or "envelopes" fit for a file, and its own among all of both? */
-hypofab_status study_check_name(const hypofab_study *study, const deck_source *source, const char *list,
-                                unsigned index);
-
-/** Is a text made of letters, digits, - _ . alone, not starting with a dot? */
-bool study_is_plain_name(const char *text);
-
-/** Intergranular strain of state number index, by whichever of its five sources the deck names. */
-hypofab_status study_resolve_delta(hypofab_study *study, const deck_source *source, unsigned index);
-
-/** Check the numbers under `sensitivities` of test number index. */
-hypofab_status study_check_sensitivities(const hypofab_study *study, const deck_source *source, unsigned index);
-
-/**
- * @brief The variations of names, for test number index.
- * @param names      n of them; NULL: those of the deck
- * @param n          in: their number; out: that of the variations
- * @param variations allocated, tension positive but for the sign of what is varied; to be freed by the caller
- */
-hypofab_status study_variations(const hypofab_study *study, int index, const char *const *names, int *n,
-                                hypofab_variation **variations);
-
-/** Step number index of test number test: six conditions, end, cycles, stops and row spacing. */
-hypofab_status study_resolve_step(hypofab_study *study, const deck_source *source, unsigned test, unsigned index);
-
-/** Refuse a step whose end its own conditions keep out of reach, as far as that shows without integrating. */
-hypofab_status study_check_reach(const hypofab_study *study, const deck_source *source, unsigned test);
 
 #endif

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/resolve/study.h"
+#include "deck/resolve/resolve.h"
 
 /* Stops a test at its first row: everything the driver refuses has been refused by then. */
 static int stop_at_once(const hypofab_row *row, void *user) {

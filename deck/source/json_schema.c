@@ -1,9 +1,9 @@
-/* The schema of decks as a JSON Schema, for editors: the same tables that decks are checked and loaded by. */
+#include "deck/source/json_schema.h"
+
 #include <jansson.h>
 #include <string.h>
 
 #include "base/message.h"
-#include "deck/calibration/calibration_schema.h"
 #include "deck/source/schema.h"
 
 /* Texts that name something of the library: the key, and name number index (NULL past the last). */
@@ -70,7 +70,7 @@ static json_t *form_of(const cyaml_schema_value_t *schema, const char *key) {
   }
 }
 
-static char *schema_text(const cyaml_schema_value_t *schema, const char *title, const char *description) {
+char *json_schema_text(const cyaml_schema_value_t *schema, const char *title, const char *description) {
   json_t *form = mapping_form(schema);
   json_t *whole = json_pack("{s:s,s:s,s:s}", "$schema", "https://json-schema.org/draft/2020-12/schema", "title", title,
                             "description", description);
@@ -83,10 +83,5 @@ static char *schema_text(const cyaml_schema_value_t *schema, const char *title, 
 }
 
 char *hypofab_deck_schema(void) {
-  return schema_text(&deck_schema, "hypofab deck", "Element tests and response envelopes: docs/deck.md");
-}
-
-char *hypofab_calibration_schema(void) {
-  return schema_text(&deck_calibration_schema, "hypofab calibration",
-                     "Parameters from laboratory tests: docs/calibration.md");
+  return json_schema_text(&deck_schema, "hypofab deck", "Element tests and response envelopes: docs/deck.md");
 }
