@@ -1,4 +1,4 @@
-/* Many points at once: arguments, groups, threads. The update itself is in batch.F90. */
+/* Many points at once: arguments, groups, threads. The update itself is in batch.f90. */
 #include "batch.h"
 
 #include "base/message.h"

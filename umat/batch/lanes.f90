@@ -1,4 +1,4 @@
-!> Where the numbers of a material point sit while many points are integrated side by side (batch.F90, step.f90).
+!> Where the numbers of a material point sit while many points are integrated side by side (batch.f90, step.f90).
 !>
 !> A point occupies a lane; lanes(lane, field) keeps each field of neighbouring lanes together, as vector registers want.
 module umat_batch_lanes
