@@ -16,7 +16,7 @@ static const char text[] =
     "\n"
     "Examples:\n"
     "  hypofab calibrate examples/calibration/sand.yaml\n"
-    "  hypofab calibrate my_sand.yaml -o results/my_sand && python -m hypofab calibration results/my_sand";
+    "  hypofab calibrate my_sand.yaml -o results/my_sand && hypofab calibration results/my_sand";
 
 static void print_result(const hypofab_calibration *calibration, const char *directory) {
   const hypofab_calibration_result *r = hypofab_calibration_result_of(calibration);

@@ -31,6 +31,7 @@ int cmd_calibrate(int argc, char **argv);
 
 /** Changes of fabric between snapshots. */
 int cmd_changes(int argc, char **argv);
+
 /** All fabric and force descriptors of contact lists. */
 int cmd_describe(int argc, char **argv);
 
@@ -57,5 +58,13 @@ int cmd_schema(int argc, char **argv);
 
 /** Check a deck without running it. */
 int cmd_check(int argc, char **argv);
+
+/**
+ * @brief Become the Python package's command of the same name, with the arguments as they are.
+ *
+ * The Python that HYPOFAB_PYTHON names, else python3 of the search path. One line on standard error and bad input when
+ * it does not start or does not have the package.
+ */
+int cmd_python(int argc, char **argv);
 
 #endif

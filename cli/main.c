@@ -1,4 +1,4 @@
-/* The program `hypofab`: one subcommand per file. */
+/* The program `hypofab`: one subcommand per file; cmd_python.c has those of the Python package. */
 #include <argp.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,6 +29,14 @@ static const struct command {
     {"describe", cmd_describe, "everything that the contacts of one sample, or of a series, tell of fabric and forces"},
     {"merge", cmd_merge, "fabric of a sample from the sums of its parts"},
     {"delta", cmd_delta, "initial intergranular strain from a contact list or a fabric tensor"},
+    {"plot", cmd_python, "figures as PNG and PDF, written beside the results"},
+    {"sweep", cmd_python, "many runs of a deck: grids, tables, Monte Carlo, Sobol indices"},
+    {"calibration", cmd_python, "figures of a calibration: tests, residuals, correlations"},
+    {"laboratory", cmd_python, "laboratory tests computed beside what was measured: a report"},
+    {"cycles", cmd_python, "what accumulates in cyclic tests, over the number of cycles"},
+    {"dilatancy", cmd_python, "stress-dilatancy and critical states of drained triaxial tests"},
+    {"contacts", cmd_python, "contacts of HDF5, .npz or VTK XML as the .npy that hypofab reads"},
+    {"paper", cmd_python, "DEM runs of examples/dem and element tests beside a paper's results"},
 };
 
 static void print_help(FILE *stream) {
@@ -39,7 +47,8 @@ static void print_help(FILE *stream) {
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
     fprintf(stream, "  %-11s %s\n", commands[i].name, commands[i].purpose);
   fputs(
-      "\n'hypofab COMMAND --help' explains a command, with examples; 'hypofab --version' prints the version.\n"
+      "\nCommands from 'plot' on are those of the Python package: pip install hypofab.\n"
+      "'hypofab COMMAND --help' explains a command, with examples; 'hypofab --version' prints the version.\n"
       "Exit codes: 0 done, 1 stopped early (results so far are written), 2 bad input, 3 internal error.\n",
       stream);
 }

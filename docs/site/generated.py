@@ -26,7 +26,12 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def output(*command: str | Path) -> str:
     """What a command prints, at the width of a page."""
-    environment = os.environ | {"COLUMNS": "100", "ARGP_HELP_FMT": "rmargin=100", "NO_COLOR": "1"}
+    environment = os.environ | {
+        "COLUMNS": "100",
+        "ARGP_HELP_FMT": "rmargin=100",
+        "NO_COLOR": "1",
+        "HYPOFAB_PYTHON": sys.executable,
+    }
     return subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
 
 
@@ -36,20 +41,11 @@ def fenced(text: str) -> str:
 
 
 def commands(_: Sphinx) -> str:
-    """Every command of the program and of `python -m hypofab` with its help."""
+    """Every command of the program, those that it hands to Python among them, with its help."""
     overview = output(PROGRAM, "--help")
-    parts = ["## hypofab", fenced(overview)]
     names = re.findall(r"^  ([a-z][a-z-]*) +\S", overview, flags=re.MULTILINE)
+    parts = ["## hypofab", fenced(overview)]
     parts += [f"### hypofab {name}\n\n{fenced(output(PROGRAM, name, '--help'))}" for name in names]
-    python = (sys.executable, "-m", "hypofab")
-    overview = output(*python, "--help")
-    names = re.search(r"\{([a-z0-9,-]+)\}", overview)[1].split(",")
-    parts += [
-        "## Figures and tables",
-        "In an environment with the package the program hands these on: `hypofab plot`.\n",
-    ]
-    parts += [fenced(overview)]
-    parts += [f"### python -m hypofab {name}\n\n{fenced(output(*python, name, '--help'))}" for name in names]
     return "\n\n".join(parts)
 
 
@@ -126,7 +122,7 @@ def other_pages(app: Sphinx) -> str:
 
 def fortran(app: Sphinx) -> str:
     """The modules of the model."""
-    for source in (ROOT / "umat").glob("*.[fF]90"):
+    for source in (ROOT / "umat").rglob("*.[fF]90"):
         app.env.note_dependency(str(source))
     return fortran_modules.pages(ROOT / "umat")
 

@@ -11,7 +11,7 @@ enum { LONGEST_HEAD = 1 << 16 };
 static hypofab_status refuse(const lines *input, const char *problem) {
   return hypofab_fail(HYPOFAB_BAD_FILE,
                       "%s: %s; expected a NumPy file (.npy) with a two-dimensional array of numbers, or an array of "
-                      "records, little-endian and in C order; `python -m hypofab contacts` makes it of others",
+                      "records, little-endian and in C order; `hypofab contacts` makes it of others",
                       input->path, problem);
 }
 

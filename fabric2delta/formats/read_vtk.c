@@ -119,7 +119,7 @@ static hypofab_status refuse_xml(const lines *input) {
                         input->path);
   return hypofab_fail(HYPOFAB_BAD_FILE,
                       "%s:1: a VTK or XML file; expected a text table with one row per contact, a legacy VTK file, or "
-                      "the .npy that `python -m hypofab contacts` makes of this one",
+                      "the .npy that `hypofab contacts` makes of this one",
                       input->path);
 }
 

@@ -130,7 +130,7 @@ hypofab_status vtk_sections_find(lines *input, vtk_sections *sections) {
     if (!strncasecmp(text, "BINARY", 6))
       return hypofab_fail(HYPOFAB_BAD_FILE,
                           "%s: a binary VTK file; expected a VTK file in ASCII (as YADE's VTKExporter writes it), or "
-                          "the .npy that `python -m hypofab contacts` makes of it",
+                          "the .npy that `hypofab contacts` makes of it",
                           input->path);
     if (!strncasecmp(text, "ASCII", 5) || !strncasecmp(text, "DATASET POLYDATA", 16)) continue;
     if ((status = read_section(&at))) return status;

@@ -1,4 +1,4 @@
-"""Command line: `python -m hypofab stiffness ...` prints a table, `python -m hypofab plot ...` draws figures."""
+"""Commands of the package, which the program hands on: `hypofab plot ...` draws figures."""
 
 import argparse
 import os
@@ -26,7 +26,7 @@ from hypofab import (
 from hypofab.errors import HypofabError, InputError
 from hypofab.laboratory.catalogue import CatalogueError
 from hypofab.laboratory.report import report as laboratory
-from hypofab.launch import PYTHON_COMMANDS, packaged_program
+from hypofab.launch import packaged_program
 from hypofab.measured import read_measured
 from hypofab.probes import has_probes, is_classical, read_probes
 from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
@@ -95,13 +95,13 @@ def default_program() -> str:
 
 def parser() -> argparse.ArgumentParser:
     """The command line's parser."""
-    top = argparse.ArgumentParser(prog="python -m hypofab", description="Tables and figures from results of hypofab.")
+    top = argparse.ArgumentParser(prog="hypofab", description="Tables and figures from results of hypofab.")
     commands = top.add_subparsers(dest="command", required=True)
 
     table = commands.add_parser("stiffness", help="table of secant stiffnesses beside those of paper 000, Table 4")
     table.add_argument("runs", nargs="+", metavar="[LABEL=]DIR", type=labelled_directory, help="results of hypofab run")
 
-    draw = commands.add_parser("plot", help=PYTHON_COMMANDS["plot"])
+    draw = commands.add_parser("plot", help="figures as PNG and PDF, written beside the results")
     draw.add_argument("directories", nargs="+", metavar="DIR", type=Path, help="results of hypofab run or envelope")
     draw.add_argument("--zoom", type=float, metavar="PERCENT", help="inset of q for eps_q from 0 to PERCENT")
     draw.add_argument("--compression-positive", action="store_true", help="signs of soil mechanics in the figures")
@@ -114,21 +114,21 @@ def parser() -> argparse.ArgumentParser:
         help="CSV of measured tests to draw over: columns eps_q (or eps_1), q, eps_v, p, void_ratio",
     )
 
-    calibration = commands.add_parser("calibration", help=PYTHON_COMMANDS["calibration"])
+    calibration = commands.add_parser("calibration", help="figures of a calibration: tests, residuals, correlations")
     calibration.add_argument("directory", metavar="DIR", type=Path, help="results of hypofab calibrate")
 
     fabric_command.add_parser(commands)
     sweep_command.add_parser(commands)
 
     source = Path(__file__).parents[2]
-    paper = commands.add_parser("paper", help=PYTHON_COMMANDS["paper"])
+    paper = commands.add_parser("paper", help="DEM runs of examples/dem and element tests beside a paper's results")
     paper.add_argument("paper", choices=papers.PAPERS, help="; ".join(f"{k}: {v}" for k, v in papers.PAPERS.items()))
     paper.add_argument("--runs", type=Path, metavar="DIR", help="run folders (examples/dem/results/PAPER)")
     paper.add_argument(
         "--out", type=Path, default=source / "docs/papers/figures", metavar="DIR", help="for the figures"
     )
 
-    cyclic = commands.add_parser("cycles", help=PYTHON_COMMANDS["cycles"])
+    cyclic = commands.add_parser("cycles", help="what accumulates in cyclic tests, over the number of cycles")
     cyclic.add_argument("directory", metavar="DIR", type=Path, help="results of hypofab run")
     cyclic.add_argument("--quantity", default="eps_zz", metavar="NAME", help="a result column (default: %(default)s)")
     cyclic.add_argument("--tests", nargs="+", default=(), metavar="TEST", help="only these of the deck")
@@ -136,10 +136,10 @@ def parser() -> argparse.ArgumentParser:
     cyclic.add_argument("--last", type=float, metavar="N", help="draw up to this cycle")
     cyclic.add_argument("--name", default="cycles", help="of the figures, written to DIR (default: %(default)s)")
 
-    drained = commands.add_parser("dilatancy", help=PYTHON_COMMANDS["dilatancy"])
+    drained = commands.add_parser("dilatancy", help="stress-dilatancy and critical states of drained triaxial tests")
     drained.add_argument("directory", metavar="DIR", type=Path, help="results of hypofab run")
 
-    laboratory = commands.add_parser("laboratory", help=PYTHON_COMMANDS["laboratory"])
+    laboratory = commands.add_parser("laboratory", help="laboratory tests computed beside what was measured: a report")
     laboratory.add_argument("directory", metavar="DIR", type=Path, help="folder with the files of the tests")
     laboratory.add_argument("-o", "--output", metavar="OUT", type=Path, required=True, help="folder for the report")
     laboratory.add_argument("--catalogue", metavar="FILE", type=Path, help="tests and their files (default: built in)")
@@ -147,7 +147,7 @@ def parser() -> argparse.ArgumentParser:
         "--program", default=default_program(), metavar="PATH", help="hypofab (default: %(default)s)"
     )
 
-    contacts = commands.add_parser("contacts", help=PYTHON_COMMANDS["contacts"])
+    contacts = commands.add_parser("contacts", help="contacts of HDF5, .npz or VTK XML as the .npy that hypofab reads")
     contacts.add_argument("source", metavar="FILE", type=Path, help="ends in " + ", ".join(contact_files.OPENERS))
     contacts.add_argument("target", metavar="OUT.npy", type=Path)
     contacts.add_argument("--group", help="HDF5: group or dataset; .npz: arrays; .npy without names: names of columns")

@@ -7,14 +7,13 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from hypofab.errors import InputError, Status
-from hypofab.launch import PYTHON_COMMANDS
 
 EXECUTORS = ("processes", "threads", "dask", "mpi")
 
 
 def add_parser(commands: argparse._SubParsersAction) -> None:
     """Add the command `sweep`."""
-    one = commands.add_parser("sweep", help=PYTHON_COMMANDS["sweep"])
+    one = commands.add_parser("sweep", help="many runs of a deck: grids, tables, Monte Carlo, Sobol indices")
     one.add_argument("file", metavar="FILE", type=Path, help="deck, inputs, design, outputs: docs/sweeps.md")
     one.add_argument(
         "-o", "--output", metavar="DIR", type=Path, required=True, help="folder; an old sweep goes on there"

@@ -16,10 +16,11 @@ import pytest
 import hypofab
 from hypofab import _core
 from hypofab.__main__ import parser
-from hypofab.launch import PYTHON_COMMANDS, packaged_program
+from hypofab.launch import packaged_program
 
 PACKAGE = Path(hypofab.__file__).parent
 COMMAND = Path(sys.executable).with_name("hypofab")
+MAIN = Path(__file__).parents[2] / "cli" / "main.c"
 
 
 def archive(pattern: str) -> Path:
@@ -103,20 +104,19 @@ def test_the_command_is_the_program_and_the_python_commands(examples: Path, tmp_
     assert (tmp_path / "stress_strain.png").stat().st_size > 1000
 
 
-def test_python_commands_are_those_that_the_program_has_not() -> None:
-    (commands,) = [action.choices for action in parser()._actions if action.dest == "command"]
-    listed = run(packaged_program(), "--help")
-    own = {name for name in commands if not re.search(rf"^\s+{re.escape(name)}\s", listed, flags=re.MULTILINE)}
-    assert own == set(PYTHON_COMMANDS)
+def test_the_help_of_the_program_lists_the_commands_of_both_once() -> None:
+    """And with the purpose that each has in its own help."""
+    listed = re.findall(r"^  ([a-z][a-z-]*) +(.+)$", run(packaged_program(), "--help"), flags=re.MULTILINE)
+    assert run(COMMAND, "--help") == run(packaged_program(), "--help")
+    assert len(dict(listed)) == len(listed)
+    (commands,) = [action for action in parser()._actions if action.dest == "command"]
+    purposes = {one.dest: one.help for one in commands._choices_actions if one.dest not in ("fabric", "stiffness")}
+    assert purposes.items() <= dict(listed).items()
+    assert set(purposes) == set(re.findall(r'^    \{"([a-z-]+)", cmd_python,', MAIN.read_text(), flags=re.MULTILINE))
 
 
-def test_the_help_of_the_command_lists_all_commands_for_readers_and_for_shells() -> None:
-    of_program = run(packaged_program(), "--help").splitlines()
-    listed = run(COMMAND, "--help").splitlines()
-    assert [line for line in listed if line in of_program] == of_program
-    added = [line.split(maxsplit=1) for line in listed if line not in of_program]
-    assert dict(added) == PYTHON_COMMANDS
-    script = Path(__file__).parents[2] / "cli" / "completion" / "hypofab.bash"
+def test_shells_complete_commands_of_python() -> None:
+    script = MAIN.parent / "completion" / "hypofab.bash"
     line = 'source "$1"; COMP_WORDS=("$2" sw); COMP_CWORD=1; _hypofab; echo "${COMPREPLY[@]}"'
     assert run("bash", "-c", line, "bash", script, COMMAND) == "sweep\n"
 

@@ -1,4 +1,4 @@
-"""`python -m hypofab laboratory DIR -o OUT`: run the program on every test of a catalogue and compare."""
+"""`hypofab laboratory DIR -o OUT`: run the program on every test of a catalogue and compare."""
 
 import csv
 from pathlib import Path
