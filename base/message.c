@@ -60,23 +60,36 @@ const char *hypofab_last_message(void) { return last_message; }
 
 const char *hypofab_version(void) { return HYPOFAB_VERSION; }
 
-const char *hypofab_status_text(hypofab_status status) {
-  switch (status) {
-    case HYPOFAB_OK: return "done";
-    case HYPOFAB_NOT_CONTROLLABLE: return "loss of controllability: no strain rate satisfies the prescribed rates";
-    case HYPOFAB_NOT_UNIQUE: return "loss of uniqueness: two strain rates satisfy the prescribed rates";
-    case HYPOFAB_OUT_OF_DOMAIN: return "the state left the model's domain";
-    case HYPOFAB_STEP_LIMIT: return "the bound on work was reached";
-    case HYPOFAB_LIQUEFACTION: return "liquefaction: the mean effective stress vanished at constant volume";
-    case HYPOFAB_TARGET_NOT_REACHED: return "the step ran its maximum time without meeting its end condition";
-    case HYPOFAB_INTERRUPTED: return "interrupted";
-    case HYPOFAB_BAD_MATERIAL: return "inadmissible material parameter";
-    case HYPOFAB_BAD_STATE: return "inadmissible state";
-    case HYPOFAB_BAD_ARGUMENT: return "inadmissible argument";
-    case HYPOFAB_BAD_FILE: return "unusable input file";
-    case HYPOFAB_NO_MEMORY: return "out of memory";
-    case HYPOFAB_IO_ERROR: return "a result file could not be written";
-    case HYPOFAB_INTERNAL_ERROR: return "internal error";
-  }
-  return "unknown status";
+/* Of a status, what it is called in short, where it has such a name, and its sentence. */
+static const struct outcome {
+  hypofab_status status;
+  const char *name, *text;
+} outcomes[] = {
+    {HYPOFAB_OK, NULL, "done"},
+    {HYPOFAB_NOT_CONTROLLABLE, "loss of controllability",
+     "loss of controllability: no strain rate satisfies the prescribed rates"},
+    {HYPOFAB_NOT_UNIQUE, "loss of uniqueness", "loss of uniqueness: two strain rates satisfy the prescribed rates"},
+    {HYPOFAB_OUT_OF_DOMAIN, NULL, "the state left the model's domain"},
+    {HYPOFAB_STEP_LIMIT, NULL, "the bound on work was reached"},
+    {HYPOFAB_LIQUEFACTION, "liquefaction", "liquefaction: the mean effective stress vanished at constant volume"},
+    {HYPOFAB_TARGET_NOT_REACHED, NULL, "the step ran its maximum time without meeting its end condition"},
+    {HYPOFAB_INTERRUPTED, NULL, "interrupted"},
+    {HYPOFAB_BAD_MATERIAL, NULL, "inadmissible material parameter"},
+    {HYPOFAB_BAD_STATE, NULL, "inadmissible state"},
+    {HYPOFAB_BAD_ARGUMENT, NULL, "inadmissible argument"},
+    {HYPOFAB_BAD_FILE, NULL, "unusable input file"},
+    {HYPOFAB_NO_MEMORY, NULL, "out of memory"},
+    {HYPOFAB_IO_ERROR, NULL, "a result file could not be written"},
+    {HYPOFAB_INTERNAL_ERROR, NULL, "internal error"},
+};
+
+static const struct outcome *outcome_of(hypofab_status status) {
+  static const struct outcome unknown = {HYPOFAB_OK, NULL, "unknown status"};
+  for (size_t i = 0; i < sizeof outcomes / sizeof *outcomes; i++)
+    if (outcomes[i].status == status) return &outcomes[i];
+  return &unknown;
 }
+
+const char *hypofab_status_text(hypofab_status status) { return outcome_of(status)->text; }
+
+const char *hypofab_status_name(hypofab_status status) { return outcome_of(status)->name; }

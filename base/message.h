@@ -27,6 +27,9 @@ hypofab_status hypofab_fail_about(hypofab_status status, hypofab_about about, in
 /** Give the last failure another text and keep its subject: a caller says more, e.g. in which step. */
 hypofab_status hypofab_fail_again(hypofab_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** What a finding is called in short, e.g. "loss of controllability"; NULL where a status has no such name. */
+const char *hypofab_status_name(hypofab_status status);
+
 /** hypofab_fail_about for callers without variable arguments (Fortran): texts of the given lengths, not terminated. */
 void hypofab_set_message(int about, const char *name, int name_length, const char *text, int length);
 

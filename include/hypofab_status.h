@@ -60,7 +60,7 @@ typedef enum hypofab_about {
   HYPOFAB_ABOUT_VARIABLE,    /**< stress or a state variable: name */
   HYPOFAB_ABOUT_ARGUMENT,    /**< another argument of the call: name, and index where it is one of several */
   HYPOFAB_ABOUT_CONDITION,   /**< one of the six conditions of a step: index */
-  HYPOFAB_ABOUT_STEP,        /**< a step of a test: index */
+  HYPOFAB_ABOUT_STEP,        /**< a step of a test: index; name is the test's where it has one */
   HYPOFAB_ABOUT_KEY,         /**< a key of a deck or a calibration file: name is its path, e.g. "states[0].stress" */
   HYPOFAB_ABOUT_ROW,         /**< a row of a table: index */
   HYPOFAB_ABOUT_COLUMN       /**< a column of a table: name */

@@ -43,14 +43,9 @@ static hypofab_status prepare(run *run, const study_series *series, probe_result
     hypofab_test_outcome outcome;
     status = hypofab_test_run(&series->material, &series->state, test->steps, (int)series->n_steps, &test->options,
                               take_row, run, &outcome);
-    if (status && status != HYPOFAB_INTERRUPTED) {
-      char reason[HYPOFAB_MESSAGE_SIZE];
-      memcpy(reason, hypofab_last_message(), sizeof reason);
-      const size_t length = strlen(reason); /* it names the step; its last full stop is for the caller to set */
-      return hypofab_fail(status, "the state to probe is not there, for test '%s' stopped early in %.*s",
-                          study->deck->tests[series->test].name,
-                          (int)(length - (length > 0 && reason[length - 1] == '.')), reason);
-    }
+    if (status && status != HYPOFAB_INTERRUPTED)
+      return hypofab_fail(status, "the state to probe is not there, for test '%s' stopped early in %s",
+                          study->deck->tests[series->test].name, hypofab_last_message());
     result->state = outcome.state;
   }
   if (!status && envelope->directions == STUDY_PRINCIPAL && envelope->frame != DECK_FRAME_XYZ)

@@ -167,13 +167,10 @@ static hypofab_status explain(const hypofab_study *study, const char *directory,
     if (asked_to_stop && result->status == HYPOFAB_INTERRUPTED)
       return hypofab_fail(HYPOFAB_INTERRUPTED, "interrupted in test '%s'; its %ld rows so far are in %s/%s.csv",
                           given->name, result->rows, directory, given->name);
-    /* The driver's message names the step too, and ends with an advice. */
-    const char *message =
-        strncmp(result->message, "step ", 5) == 0 ? strchr(result->message, ':') + 2 : result->message;
-    return hypofab_fail(result->status, "test '%s' stopped early in step %u: %s%s Its %ld rows so far are in %s/%s.csv",
-                        given->name, result->stopped_in + 1, message,
-                        study_sign(study) < 0 ? " (Tension is positive in this message.)" : "", result->rows, directory,
-                        given->name);
+    return hypofab_fail_about(result->status, HYPOFAB_ABOUT_STEP, result->stopped_in, given->name,
+                              "test '%s' stopped early in %s%s. Its %ld rows so far are in %s/%s.csv", given->name,
+                              result->message, study_sign(study) < 0 ? " (tension is positive in this message)" : "",
+                              result->rows, directory, given->name);
   }
   return HYPOFAB_OK;
 }

@@ -12,7 +12,7 @@
 typedef struct study_result {
   bool ran; /**< false: the run was interrupted before its turn */
   hypofab_status status;
-  char message[HYPOFAB_MESSAGE_SIZE]; /**< of the driver, when it stopped early */
+  char message[HYPOFAB_MESSAGE_SIZE]; /**< of the driver, when it stopped early: it begins with the step */
   long rows;
   hypofab_row start; /**< the first row */
   hypofab_row *ends; /**< the last row of each step begun */

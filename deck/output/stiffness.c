@@ -37,11 +37,9 @@ hypofab_status study_stiffness(const hypofab_study *study, unsigned test, const 
   hypofab_status status =
       hypofab_test_run(&study->materials[from->material], &initial, &step, 1, &given->options, take_row, &seen, NULL);
   const char *name = study->deck->tests[test].name;
-  if (status) {
-    char reason[HYPOFAB_MESSAGE_SIZE];
-    memcpy(reason, hypofab_last_message(), sizeof reason);
-    return hypofab_fail(status, "%s: test '%s', first step: %s", study->path, name, reason);
-  }
+  if (status)
+    return hypofab_fail_about(status, HYPOFAB_ABOUT_STEP, 0, name, "%s: test '%s', first step: %s", study->path, name,
+                              hypofab_last_message());
   const double strain = seen.last.value[HYPOFAB_EPS_Q] - seen.first.value[HYPOFAB_EPS_Q];
   const double volume = seen.last.value[HYPOFAB_EPS_V] - seen.first.value[HYPOFAB_EPS_V];
   if (!(strain > least_shear * fabs(volume)))

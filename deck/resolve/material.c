@@ -54,13 +54,12 @@ static void override_parameters(const deck_parameters *given, hypofab_material *
     if (given->value[i]) *parameter(material, i) = *given->value[i];
 }
 
-/* Where to point when a material is inadmissible: at the first parameter of the deck outside its own bounds, or at
- * all of them when they contradict each other. */
+/* The key that an inadmissible material is refused for: the parameter at fault, where the deck gives it. */
 static deck_key blamed_key(unsigned index, const deck_parameters *given) {
+  const hypofab_subject *subject = hypofab_last_subject();
   hypofab_parameter_info info;
   for (int i = 0; given && i < HYPOFAB_N_PARAMETERS; ++i)
-    if (given->value[i] && !hypofab_parameter_describe(i, &info) &&
-        !(*given->value[i] >= info.lower && *given->value[i] <= info.upper))
+    if (given->value[i] && !hypofab_parameter_describe(i, &info) && strcmp(info.name, subject->name) == 0)
       return deck_key_format("materials[%u].parameters.%s", index, info.name);
   return deck_key_format("materials[%u]%s", index, given ? ".parameters" : "");
 }

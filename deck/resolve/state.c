@@ -24,13 +24,12 @@ static hypofab_status resolve_stress(const hypofab_study *study, const deck_sour
   return HYPOFAB_OK;
 }
 
-/* Which key to blame for a state outside the model's domain: delta when the state is admissible without it. */
-static const char *blamed_key(const hypofab_material *material, const hypofab_state *state, const deck_state *given) {
-  hypofab_state without = *state;
-  memset(without.delta, 0, sizeof without.delta);
-  if (hypofab_state_check(material, &without) == HYPOFAB_OK) return ".delta";
-  if (strstr(hypofab_last_message(), "void")) return ".void_ratio";
-  return given->p ? ".p" : ".stress";
+/* The key that a state outside the model's domain is refused for. */
+static deck_key blamed_key(unsigned index, const deck_state *given) {
+  const hypofab_subject *subject = hypofab_last_subject();
+  if (subject->about != HYPOFAB_ABOUT_VARIABLE) return deck_key_format("states[%u]", index);
+  const bool by_p = given->p && strcmp(subject->name, "stress") == 0;
+  return deck_key_format("states[%u].%s", index, by_p ? "p" : subject->name);
 }
 
 static hypofab_status resolve_state(hypofab_study *study, const deck_source *source, unsigned index) {
@@ -52,10 +51,7 @@ static hypofab_status resolve_state(hypofab_study *study, const deck_source *sou
 
   status = hypofab_state_check(material, &state->initial);
   if (!status) return HYPOFAB_OK;
-  char reason[HYPOFAB_MESSAGE_SIZE];
-  memcpy(reason, hypofab_last_message(), sizeof reason);
-  const char *key = blamed_key(material, &state->initial, given);
-  return deck_refuse(source, status, deck_key_format("states[%u]%s", index, key), "%s%s", reason,
+  return deck_refuse(source, status, blamed_key(index, given), "%s%s", hypofab_last_message(),
                      study_sign(study) < 0 ? " (tension positive here)" : "");
 }
 

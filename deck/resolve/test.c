@@ -54,8 +54,13 @@ static hypofab_status resolve_test(hypofab_study *study, const deck_source *sour
   const study_state *state = &study->states[test->state];
   status = hypofab_test_run(&study->materials[state->material], &state->initial, test->steps, (int)test->n_steps,
                             &test->options, stop_at_once, NULL, NULL);
-  if (status >= HYPOFAB_BAD_MATERIAL && status < HYPOFAB_NO_MEMORY)
-    return deck_refuse(source, status, deck_key_format("tests[%u]", index), "%s", hypofab_last_message());
+  if (status >= HYPOFAB_BAD_MATERIAL && status < HYPOFAB_NO_MEMORY) {
+    const hypofab_subject *subject = hypofab_last_subject();
+    const deck_key key = subject->about == HYPOFAB_ABOUT_STEP
+                             ? deck_key_format("tests[%u].steps[%d]", index, (int)subject->index)
+                             : deck_key_format("tests[%u]", index);
+    return deck_refuse(source, status, key, "%s", hypofab_last_message());
+  }
   return status >= HYPOFAB_NO_MEMORY ? status : HYPOFAB_OK;
 }
 

@@ -126,12 +126,14 @@ static hypofab_status check_mapping(const deck_source *source, const yaml_node_t
     if (!field) {
       char keys[400];
       list_keys(schema, keys, sizeof keys);
-      return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%zu: %s: unknown key, expected one of %s", source->path,
-                          name_node->start_mark.line + 1, child.text, keys);
+      return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_KEY, -1, child.text,
+                                "%s:%zu: %s: unknown key, expected one of %s", source->path,
+                                name_node->start_mark.line + 1, child.text, keys);
     }
     if (is_repeated(source, node, pair))
-      return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%zu: %s: the key is given twice, expected it once", source->path,
-                          name_node->start_mark.line + 1, child.text);
+      return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_KEY, -1, child.text,
+                                "%s:%zu: %s: the key is given twice, expected it once", source->path,
+                                name_node->start_mark.line + 1, child.text);
     hypofab_status status = check_value(source, node_at(source, pair->value), &field->value, &child);
     if (status) return status;
   }

@@ -161,6 +161,6 @@ hypofab_status deck_refuse(const deck_source *source, hypofab_status status, dec
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
-  return hypofab_fail(status, "%s:%zu: %s%s%s", source->path, deck_line(source, key.text), key.text,
-                      *key.text ? ": " : "", text);
+  return hypofab_fail_about(status, HYPOFAB_ABOUT_KEY, -1, key.text, "%s:%zu: %s%s%s", source->path,
+                            deck_line(source, key.text), key.text, *key.text ? ": " : "", text);
 }

@@ -53,7 +53,7 @@ char *deck_path_beside(const deck_source *source, const char *path);
 size_t deck_line(const deck_source *source, const char *key);
 
 /**
- * @brief Refuse a deck: keep the message "FILE:LINE: KEY: ..." for hypofab_last_message().
+ * @brief Refuse a deck: keep the message "FILE:LINE: KEY: ..." for hypofab_last_message(), the key as its subject.
  * @param status returned unchanged
  * @param format value and what was expected, as printf
  */

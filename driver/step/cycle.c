@@ -38,8 +38,7 @@ hypofab_status cycle_begin(const run *r, const hypofab_step *step, cycle_plan *p
   if (status) return status;
   const char *name = hypofab_quantity_name(cycle->quantity);
   if (!(fabs(rate) > 0.0))
-    return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "step %d: the step does not move %s, so it cannot cycle it",
-                        r->step_number + 1, name);
+    return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "the step does not move %s, so it cannot cycle it", name);
   const double start = quantity_value(cycle->quantity, &r->observer, r->time, &r->state);
   const double origin = cycle->relative ? start : 0.0, lower = origin + cycle->lower, upper = origin + cycle->upper;
   *plan = (cycle_plan){.step = step, .start = start, .legs = 2 * cycle->count};
@@ -49,9 +48,9 @@ hypofab_status cycle_begin(const run *r, const hypofab_step *step, cycle_plan *p
   if (start > lower + margin && start < upper - margin) plan->legs++; /* and back to where it began */
   if (rate > 0.0 ? start > upper - margin : start < lower + margin)
     return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
-                        "step %d: %s starts at %.9g and %s, so it never meets its first reversal at %.9g; start the "
+                        "%s starts at %.9g and %s, so it never meets its first reversal at %.9g; start the "
                         "cycles in the other direction",
-                        r->step_number + 1, name, start, rate > 0.0 ? "grows" : "falls", plan->reversal[0]);
+                        name, start, rate > 0.0 ? "grows" : "falls", plan->reversal[0]);
   return HYPOFAB_OK;
 }
 

@@ -164,9 +164,9 @@ static hypofab_status integrate_leg(run *r, const hypofab_step *step, schedule *
     } else if (s->end_is_timed) {
       ended = 1;
     } else {
-      status = hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "step %d: %s did not meet %.9g within the time %.9g",
-                            r->step_number + 1, hypofab_quantity_name(step->until.quantity), step->until.value,
-                            s->end_time - s->start_time);
+      status =
+          hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "%s did not meet %.9g within the time %.9g",
+                       hypofab_quantity_name(step->until.quantity), step->until.value, s->end_time - s->start_time);
     }
   }
   return status;

@@ -43,7 +43,6 @@ static void make_stops(const run *r, const hypofab_step *leg, schedule *s) {
 }
 
 hypofab_status schedule_make(const run *r, const hypofab_step *step, schedule *s) {
-  const int number = r->step_number + 1;
   const hypofab_mark until = step->until;
   memset(s, 0, sizeof *s);
   s->start_time = s->last_row = r->time;
@@ -57,11 +56,10 @@ hypofab_status schedule_make(const run *r, const hypofab_step *step, schedule *s
       duration = 0.0;
     } else if (!(to_go / rate > 0.0) || !isfinite(to_go / rate)) {
       return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
-                          "step %d: %s starts at %.9g and changes at the rate %.9g, so it never meets until = %.9g",
-                          number, name, now, rate, until.value);
+                          "%s starts at %.9g and changes at the rate %.9g, so it never meets until = %.9g", name, now,
+                          rate, until.value);
     } else if (step->max_time > 0.0 && to_go / rate > duration) {
-      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED,
-                          "step %d: %s meets until = %.9g after %.9g, beyond max_time = %.9g", number, name,
+      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "%s meets until = %.9g after %.9g, beyond max_time = %.9g", name,
                           until.value, to_go / rate, duration);
     } else {
       duration = to_go / rate;
@@ -70,8 +68,7 @@ hypofab_status schedule_make(const run *r, const hypofab_step *step, schedule *s
     if (step->rows > 0) s->row_interval = duration / step->rows;
   } else {
     if (!isfinite(duration))
-      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "step %d: every prescribed rate is zero, so nothing ever happens",
-                          number);
+      return hypofab_fail(HYPOFAB_TARGET_NOT_REACHED, "every prescribed rate is zero, so nothing ever happens");
     if (step->rows > 0) s->row_spacing = (hypofab_mark){until.quantity, fabs(to_go) / step->rows};
   }
   if (step->rows == 0 && step->every.value > 0.0) {

@@ -1,4 +1,4 @@
-/* Every refusal of a deck: file, line, key, value and what was expected, and nothing but the message. */
+/* Every refusal of a deck: file, line, key, value and what was expected, the key as subject, and nothing else. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -110,7 +110,7 @@ static const refusal meaning_refusals[] = {
     {"sand: hochstetten", "sand: toyoura\n    intergranular: true", 7, "materials[0].intergranular", "m_R is 0",
      "m_R > 0.5"},
     {"phi_c: 33", "phi_c: 95", 8, "materials[1].parameters.phi_c", "95", "expected"},
-    {"e_c0: 0.95", "e_c0: 0.45", 8, "materials[1].parameters", "0.45", "e_d0 < e_c0"},
+    {"e_c0: 0.95", "e_c0: 0.45", 8, "materials[1].parameters.e_d0", "0.45", "e_d0 < e_c0"},
     {"material: own", "material: clay", 18, "states[1].material", "'clay' is not defined", "the deck's materials"},
     {"name: plain", "name: start", 17, "states[1].name", "'start' is also the name of states[0]", "its own"},
     {"p: 100", "p: -100", 14, "states[0].p", "-100", "expected p > 0"},
@@ -210,6 +210,9 @@ static void check_refusals(const refusal *refusals, size_t n) {
         !strstr(message + strlen(start), r->found) || !strstr(message, r->expected))
       fail_msg("'%s' instead of '%s': status %d, message\n  %s\nexpected\n  %s ... %s ... %s", r->to, r->from, status,
                message, start, r->found, r->expected);
+    const hypofab_subject *subject = hypofab_last_subject();
+    if (*r->key && (subject->about != HYPOFAB_ABOUT_KEY || strcmp(subject->name, r->key) != 0))
+      fail_msg("the subject of '%s' is %d '%s'", message, subject->about, subject->name);
     free(text);
   }
 }

@@ -33,6 +33,8 @@ static void expect(const hypofab_material *material, const hypofab_state *state,
   if (!strstr(message, at)) fail_msg("no '%s' in: %s", at, message);
   snprintf(at, sizeof at, "step %d: ", outcome.step + 1);
   assert_true(strncmp(message, at, strlen(at)) == 0);
+  assert_int_equal(hypofab_last_subject()->about, HYPOFAB_ABOUT_STEP);
+  assert_int_equal(hypofab_last_subject()->index, outcome.step);
 }
 
 static hypofab_step preset(const char *name, double axis, double rate, double drive) {
