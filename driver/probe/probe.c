@@ -1,5 +1,5 @@
 /* Probes: strain or stress, rates or finite increments, loading and unloading, of one state in many directions. */
-#include "driver/probe/probe.h"
+#include "driver/probe/probe_finite.h"
 
 #include <math.h>
 #include <string.h>
@@ -81,15 +81,6 @@ static hypofab_status probe_rates(const probe_job *job, int n, hypofab_answer *a
       keep(answer, loading, job->options.unload ? unloading : NULL);
   }
   return HYPOFAB_OK;
-}
-
-void probe_stress_step(const double direction[6], double size, hypofab_step *step) {
-  static const hypofab_control all[6] = {HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE,
-                                         HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE};
-  double rate[6];
-  for (int k = 0; k < 6; k++) rate[k] = size * direction[k];
-  memset(step, 0, sizeof *step);
-  hypofab_step_control(step, all, rate);
 }
 
 /* The message of a run with failed probes: about the first of them. */

@@ -1,10 +1,11 @@
 /* Probes by finite increments: straight to the increment and, on request, straight back. */
+#include "driver/probe/probe_finite.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
-#include "driver/probe/probe.h"
 
 /* Points as hypofab_update_batch wants them, in one allocation. */
 typedef struct batch {
@@ -82,6 +83,15 @@ static int take_strain(const hypofab_row *row, void *user) {
   strain_rows *taken = user;
   if (taken->rows < 3) memcpy(taken->strain[taken->rows++], &row->value[HYPOFAB_EPS_XX], sizeof taken->strain[0]);
   return 0;
+}
+
+void probe_stress_step(const double direction[6], double size, hypofab_step *step) {
+  static const hypofab_control all[6] = {HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE,
+                                         HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE};
+  double rate[6];
+  for (int k = 0; k < 6; k++) rate[k] = size * direction[k];
+  memset(step, 0, sizeof *step);
+  hypofab_step_control(step, all, rate);
 }
 
 static void probe_stress(const probe_job *job, hypofab_answer *answer) {

@@ -1,9 +1,9 @@
 /**
- * @file probe.h
- * @brief What the parts of hypofab_probe_run share.
+ * @file probe_finite.h
+ * @brief Probes of a finite size, for hypofab_probe_run.
  */
-#ifndef HYPOFAB_DRIVER_PROBE_H
-#define HYPOFAB_DRIVER_PROBE_H
+#ifndef HYPOFAB_DRIVER_PROBE_FINITE_H
+#define HYPOFAB_DRIVER_PROBE_FINITE_H
 
 #include "driver/control/control.h"
 
