@@ -39,61 +39,14 @@ static error_t parse_option(int key, char *argument, struct argp_state *state) {
   }
 }
 
-/* Where a test ends, by the beginning of its name; the first that fits. Compression is positive. */
-static const struct end {
-  const char *name, *quantity, *value;
-} ends[] = {{"isotropic_compression", "p", "400"},
-            {"isotropic_extension", "p", "50"},
-            {"oedometer_unloading", "sig_zz", "50"},
-            {"k0_unloading", "sig_zz", "50"},
-            {"oedometer", "sig_zz", "400"},
-            {"k0", "sig_zz", "400"},
-            {"constant_q_unloading", "p", "90"},
-            {"constant_q_loading", "p", "200"},
-            {"hollow_cylinder_rotation", "alpha", "45"},
-            {"hollow_cylinder", "q", "60"},
-            {"proportional_stress", "q", "60"},
-            {"proportional_strain", "eps_zz", "0.02"},
-            {"radial", "eps_q", "0.05"},
-            {"simple_shear", "eps_q", "0.05"}};
-
-/* Others are driven along the axis, in compression or extension. */
-static struct end end_of(const char *preset) {
-  for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i)
-    if (strncmp(preset, ends[i].name, strlen(ends[i].name)) == 0) return ends[i];
-  return (struct end){preset, "eps_zz", strstr(preset, "extension") ? "-0.05" : "0.05"};
+static void print_parameters(const hypofab_preset *preset, FILE *stream) {
+  for (int k = 0; preset->parameters[k]; ++k) {
+    const hypofab_preset_parameter *one = preset->parameters[k];
+    fprintf(stream, "        %s: %s%s%s\n", one->name, one->example, *one->text ? " # " : "", one->text);
+  }
 }
 
-/* A value for each parameter of presets, and what it is. */
-static const struct parameter {
-  const char *name, *value, *meaning;
-} parameters[] = {{"axis", "z", "the direction of loading"},
-                  {"normal", "y", "the direction without strain, or about which things turn"},
-                  {"rate", "1", "sand as modelled here does not depend on it; it scales time"},
-                  {"drive", "strain", "or stress, which cannot go past a peak"},
-                  {"lode", "30", "Lode angle in degrees: 0 compression, 60 extension"},
-                  {"stiffness", "1.0e4", "of the spring"},
-                  {"b", "0.5", "(s2 - s3)/(s1 - s3)"},
-                  {"alpha", "30", "from the axis to the major principal stress, in degrees"},
-                  {"p_rate", "0", "rates of p, q, b and alpha"},
-                  {"q_rate", "1", NULL},
-                  {"b_rate", "0", NULL},
-                  {"alpha_rate", "0", NULL},
-                  {"direction", "[-0.4, -0.4, 1, 0, 0, 0]", "xx yy zz xy xz yz"}};
-
-static void print_parameters(const char *preset, FILE *stream) {
-  const char *name;
-  for (int k = 0; (name = hypofab_preset_parameter(preset, k, NULL)); ++k)
-    for (size_t i = 0; i < sizeof parameters / sizeof *parameters; ++i) {
-      const struct parameter *one = &parameters[i];
-      if (strcmp(one->name, name) != 0) continue;
-      fprintf(stream, "        %s: %s%s%s\n", name, one->value, one->meaning ? " # " : "",
-              one->meaning ? one->meaning : "");
-    }
-}
-
-static void print_deck(const char *preset, const char *description, const char *sand, int has_memory, FILE *stream) {
-  const struct end end = end_of(preset);
+static void print_deck(const hypofab_preset *preset, const char *sand, int has_memory, FILE *stream) {
   fprintf(stream,
           "# %s: %s.\n#\n"
           "#   hypofab check FILE      is the deck good?\n"
@@ -102,7 +55,7 @@ static void print_deck(const char *preset, const char *description, const char *
           "title: %s\n"
           "unit: kPa # of every stress\n"
           "sign: compression_positive # of stress, strain and delta; or tension_positive\n\n",
-          preset, description, preset);
+          preset->name, preset->description, preset->name);
   fprintf(stream,
           "materials:\n"
           "  - name: sand\n"
@@ -126,28 +79,21 @@ static void print_deck(const char *preset, const char *description, const char *
           "    state: start\n"
           "    steps:\n"
           "      - preset: %s\n",
-          preset, preset);
+          preset->name, preset->name);
   print_parameters(preset, stream);
   fprintf(stream,
-          "        until: {quantity: %s, value: %s} # strain counts from the start of the test\n"
+          "        until: {quantity: %s, value: %g} # strain counts from the start of the test\n"
           "        rows: 100 # or `every: {quantity: NAME, value: v}`\n"
           "      # more steps may follow\n",
-          end.quantity, end.value);
-}
-
-static const char *description_of(const char *preset) {
-  const char *name;
-  for (int i = 0; (name = hypofab_preset_name(i)); ++i)
-    if (strcmp(name, preset) == 0) return hypofab_preset_description(i);
-  return NULL;
+          hypofab_quantity_name(preset->end.quantity), preset->end.value);
 }
 
 int cmd_init(int argc, char **argv) {
   init_arguments arguments = {.sand = "hochstetten"};
   const struct argp parser = {options, parse_option, "PRESET", text, NULL, NULL, NULL};
   argp_parse(&parser, argc, argv, 0, NULL, &arguments);
-  const char *description = description_of(arguments.preset);
-  if (!description) {
+  const hypofab_preset *preset = hypofab_preset_find(arguments.preset);
+  if (!preset) {
     fprintf(stderr, "hypofab: there is no preset '%s': 'hypofab presets' lists them\n", arguments.preset);
     return CLI_BAD_INPUT;
   }
@@ -156,7 +102,7 @@ int cmd_init(int argc, char **argv) {
   if (status) return cli_exit(status);
   const int has_memory = material.m_R > 0.5;
   if (!arguments.output) {
-    print_deck(arguments.preset, description, arguments.sand, has_memory, stdout);
+    print_deck(preset, arguments.sand, has_memory, stdout);
     return cli_finish_output();
   }
   FILE *file = fopen(arguments.output, "wx");
@@ -165,7 +111,7 @@ int cmd_init(int argc, char **argv) {
     fprintf(stderr, "hypofab: %s: %s\n", arguments.output, strerror(reason));
     return reason == EEXIST ? CLI_BAD_INPUT : CLI_INTERNAL_ERROR;
   }
-  print_deck(arguments.preset, description, arguments.sand, has_memory, file);
+  print_deck(preset, arguments.sand, has_memory, file);
   const int failed = ferror(file);
   if (fclose(file) || failed) {
     fprintf(stderr, "hypofab: %s: cannot be written\n", arguments.output);

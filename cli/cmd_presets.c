@@ -18,13 +18,12 @@ static error_t parse_option(int key, char *argument, struct argp_state *state) {
 int cmd_presets(int argc, char **argv) {
   const struct argp parser = {NULL, parse_option, NULL, text, NULL, NULL, NULL};
   argp_parse(&parser, argc, argv, 0, NULL, NULL);
-  const char *name;
-  for (int i = 0; (name = hypofab_preset_name(i)); ++i) {
-    const char *parameter;
-    int required;
-    printf("%s\n    %s\n    ", name, hypofab_preset_description(i));
-    for (int k = 0; (parameter = hypofab_preset_parameter(name, k, &required)); ++k)
-      printf(required ? "%s%s" : "%s[%s]", k ? " " : "", parameter);
+  const hypofab_preset *preset;
+  for (int i = 0; (preset = hypofab_preset_at(i)); ++i) {
+    printf("%s\n    %s\n    ", preset->name, preset->description);
+    for (int k = 0; preset->parameters[k]; ++k)
+      printf(preset->parameters[k]->need == HYPOFAB_REQUIRED ? "%s%s" : "%s[%s]", k ? " " : "",
+             preset->parameters[k]->name);
     putchar('\n');
   }
   return cli_finish_output();

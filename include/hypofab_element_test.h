@@ -201,10 +201,10 @@ hypofab_status hypofab_step_condition(hypofab_step *step, int index, hypofab_qua
  */
 hypofab_status hypofab_step_preset(hypofab_step *step, const char *name, int axis, double rate);
 
-/** A named parameter of a preset. Axes are 0, 1, 2 for x, y, z. */
+/** A named parameter of a preset. */
 typedef struct hypofab_argument {
   const char *name;
-  double value[6]; /**< value[0], or six components for `direction` */
+  double value[6]; /**< value[0], a choice as its position (axes: 0, 1, 2 for x, y, z); or six components of a tensor */
 } hypofab_argument;
 
 /**
@@ -233,14 +233,51 @@ hypofab_status hypofab_step_pore_water(hypofab_step *step, double stiffness);
  */
 hypofab_status hypofab_step_hold_total_stress(hypofab_step *step, int axis);
 
+/** What kind of value a parameter of a preset takes. */
+typedef enum hypofab_value_kind {
+  HYPOFAB_NUMBER = 0,
+  HYPOFAB_CHOICE = 1, /**< one of some names, as its position (0-based) */
+  HYPOFAB_TENSOR = 2  /**< six components xx yy zz xy xz yz, not all zero; their norm does not matter */
+} hypofab_value_kind;
+
+/** Must a parameter be given? */
+typedef enum hypofab_need {
+  HYPOFAB_OPTIONAL = 0,
+  HYPOFAB_REQUIRED = 1,
+  HYPOFAB_SOME = 2 /**< one at least of those marked so */
+} hypofab_need;
+
+/** A parameter of a preset. New members come at the end. */
+typedef struct hypofab_preset_parameter {
+  const char *name;
+  hypofab_value_kind kind;
+  hypofab_need need;
+  double usual;               /**< where it is not given; a choice of -1 follows from the others */
+  const char *unit;           /**< "" for none */
+  const char *text;           /**< one line on what it is, "" where the line of the one before says it */
+  const char *example;        /**< a value as decks write it */
+  double lower, upper;        /**< of a number: bounds that it may take */
+  int not_zero;               /**< of a number: 0 is refused */
+  const char *expected;       /**< in words: which values it takes */
+  const char *const *choices; /**< of a choice: the names, NULL behind the last */
+  int is_component;           /**< of strain or stress: it changes its sign where compression is positive */
+} hypofab_preset_parameter;
+
+/** A preset. New members come at the end. */
+typedef struct hypofab_preset {
+  const char *name, *description; /**< one line */
+  hypofab_mark end; /**< a usual end of the step from p = 100 or so along z; here compression is positive */
+  const hypofab_preset_parameter *const *parameters; /**< NULL behind the last */
+} hypofab_preset;
+
+/** Preset number index (0-based), NULL past the last one. */
+const hypofab_preset *hypofab_preset_at(int index);
+
+/** The preset of a name, NULL when there is none. */
+const hypofab_preset *hypofab_preset_find(const char *name);
+
 /** Name of preset number index (0-based), NULL past the last one. */
 const char *hypofab_preset_name(int index);
-
-/** One line of documentation of preset number index, NULL past the last one. */
-const char *hypofab_preset_description(int index);
-
-/** Name of parameter number index of a preset, NULL past its last one; *required is set unless NULL. */
-const char *hypofab_preset_parameter(const char *preset, int index, int *required);
 
 /** Why a row was delivered. A test that stops early ends with a row whose event is minus its status. */
 typedef enum hypofab_event {

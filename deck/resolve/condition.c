@@ -1,87 +1,6 @@
-/* The six conditions of a step: from a preset, by component, by quantity or coefficients. */
-#include <stdio.h>
-#include <string.h>
-
+/* The six conditions of a step: by component, by quantity or coefficients; preset.c: from a preset. */
 #include "deck/resolve/step_parts.h"
-
-/* Most parameters of a preset. */
-#define MOST_ARGUMENTS 16
-
-/* Has a preset a parameter of this name? */
-static bool takes(const char *preset, const char *parameter) {
-  const char *known;
-  for (int i = 0; (known = hypofab_preset_parameter(preset, i, NULL)); ++i)
-    if (strcmp(known, parameter) == 0) return true;
-  return false;
-}
-
-static bool is_preset(const char *name) {
-  const char *known;
-  for (int i = 0; (known = hypofab_preset_name(i)); ++i)
-    if (strcmp(known, name) == 0) return true;
-  return false;
-}
-
-static void list_parameters(const char *preset, char *text, size_t size) {
-  const char *known;
-  text[0] = '\0';
-  for (int i = 0; (known = hypofab_preset_parameter(preset, i, NULL)); ++i)
-    snprintf(text + strlen(text), size - strlen(text), "%s%s", i ? ", " : "", known);
-}
-
-/* The parameters of a preset that a step gives. Signed shear rates and directions are in the deck's sign. */
-static int collect(const hypofab_study *study, const deck_step *given, hypofab_argument arguments[MOST_ARGUMENTS]) {
-  int n = 0;
-  if (given->axis) arguments[n++] = (hypofab_argument){"axis", {*given->axis}};
-  if (given->normal) arguments[n++] = (hypofab_argument){"normal", {*given->normal}};
-  if (given->drive) arguments[n++] = (hypofab_argument){"drive", {*given->drive}};
-  for (int i = 0; i < DECK_N_PRESET_NUMBERS; ++i)
-    if (given->number[i]) arguments[n++] = (hypofab_argument){deck_preset_keys[i], {*given->number[i]}};
-  if (given->direction) {
-    arguments[n].name = "direction";
-    for (int k = 0; k < 6; ++k) arguments[n].value[k] = study_sign(study) * given->direction[k];
-    ++n;
-  }
-  /* The only rate that is a component with a sign of its own. */
-  if (strncmp(given->preset, "simple_shear", strlen("simple_shear")) == 0) {
-    int i = 0;
-    while (i < n && strcmp(arguments[i].name, "rate") != 0) ++i;
-    if (i == n) arguments[n++] = (hypofab_argument){"rate", {1}};
-    arguments[i].value[0] *= study_sign(study);
-  }
-  return n;
-}
-
-static hypofab_status resolve_preset(const hypofab_study *study, const deck_source *source, step_place place,
-                                     const deck_step *given, hypofab_step *step) {
-  hypofab_argument arguments[MOST_ARGUMENTS];
-  const int n = collect(study, given, arguments);
-  char list[300];
-  list_parameters(given->preset, list, sizeof list);
-  const char *known;
-  int required;
-  for (int i = 0; i < n && is_preset(given->preset); ++i)
-    if (!takes(given->preset, arguments[i].name))
-      return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".%s", arguments[i].name),
-                         "has no meaning for preset '%s', expected among %s", given->preset, list);
-  for (int i = 0; (known = hypofab_preset_parameter(given->preset, i, &required)); ++i) {
-    int k = 0;
-    while (k < n && strcmp(arguments[k].name, known) != 0) ++k;
-    if (required && k == n)
-      return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, "%s", ""),
-                         "key '%s' is missing for preset '%s', expected %s", known, given->preset,
-                         strcmp(known, "axis") == 0 || strcmp(known, "normal") == 0 ? "one of x, y, z" : "it");
-  }
-  hypofab_status status = hypofab_step_preset_with(step, given->preset, arguments, n);
-  if (!status) return HYPOFAB_OK;
-  /* The library names the parameter first. */
-  const char *message = hypofab_last_message();
-  const size_t length = strcspn(message, " ");
-  for (int i = 0; i < n; ++i)
-    if (strlen(arguments[i].name) == length && strncmp(message, arguments[i].name, length) == 0)
-      return deck_refuse(source, status, step_key(place, ".%s", arguments[i].name), "%s", message);
-  return deck_refuse(source, status, step_key(place, ".preset"), "%s", message);
-}
+#include "deck/source/preset_keys.h"
 
 static hypofab_status resolve_control(const hypofab_study *study, const deck_source *source, step_place place,
                                       const deck_step *given, hypofab_step *step) {
@@ -143,12 +62,11 @@ static hypofab_status resolve_conditions(const hypofab_study *study, const deck_
 
 /* Keys of presets have no meaning elsewhere, but for the frame. */
 static hypofab_status refuse_parameters(const deck_source *source, step_place place, const deck_step *given) {
-  const char *key = given->drive ? "drive" : given->direction ? "direction" : NULL;
-  for (int i = 0; i < DECK_N_PRESET_NUMBERS && !key; ++i)
-    if (given->number[i]) key = deck_preset_keys[i];
-  if (key)
-    return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".%s", key),
-                       "has no meaning here, expected it only with preset");
+  const hypofab_preset_parameter *key;
+  for (int i = 0; (key = deck_preset_key(i)); ++i)
+    if (given->parameter[i])
+      return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".%s", key->name),
+                         "has no meaning here, expected it only with preset");
   if (!given->axis != !given->normal)
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, given->axis ? ".axis" : ".normal"),
                        "is given alone, expected both 'axis' and 'normal': the frame of q_signed, s, t and alpha");
@@ -201,7 +119,7 @@ hypofab_status step_resolve_conditions(hypofab_study *study, const deck_source *
   }
   if (status) return status;
   if (given->preset)
-    status = resolve_preset(study, source, place, given, step);
+    status = step_resolve_preset(study, source, place, given, step);
   else if (given->control)
     status = resolve_control(study, source, place, given, step);
   else if (given->conditions)

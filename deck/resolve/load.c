@@ -8,7 +8,7 @@
 
 static hypofab_status resolve(hypofab_study *study, const deck_source *source) {
   void *filled = NULL;
-  hypofab_status status = deck_fill(source, &deck_schema, &filled);
+  hypofab_status status = deck_fill(source, deck_schema(), &filled);
   if (status) return status;
   study->deck = filled;
   const deck *deck = study->deck;

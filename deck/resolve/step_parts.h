@@ -12,6 +12,10 @@
 hypofab_status step_resolve_conditions(hypofab_study *study, const deck_source *source, step_place place,
                                        hypofab_step *step);
 
+/** Conditions and frame from the step's preset (preset.c). */
+hypofab_status step_resolve_preset(const hypofab_study *study, const deck_source *source, step_place place,
+                                   const deck_step *given, hypofab_step *step);
+
 /** Conditions and their history from a table; the study keeps the numbers (history.c). */
 hypofab_status step_resolve_table(hypofab_study *study, const deck_source *source, step_place place,
                                   hypofab_step *step);

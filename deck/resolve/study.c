@@ -27,7 +27,7 @@ void hypofab_study_free(hypofab_study *study) {
   free(study->envelopes);
   free(study->states);
   free(study->materials);
-  deck_release(&deck_schema, study->deck);
+  deck_release(deck_schema(), study->deck);
   free(study->path);
   free(study);
 }

@@ -83,5 +83,5 @@ char *json_schema_text(const cyaml_schema_value_t *schema, const char *title, co
 }
 
 char *hypofab_deck_schema(void) {
-  return json_schema_text(&deck_schema, "hypofab deck", "Element tests and response envelopes: docs/deck.md");
+  return json_schema_text(deck_schema(), "hypofab deck", "Element tests and response envelopes: docs/deck.md");
 }

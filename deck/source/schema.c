@@ -1,5 +1,9 @@
 #include "deck/source/schema.h"
 
+#include <pthread.h>
+
+#include "deck/source/preset_keys.h"
+
 #define OPTIONAL CYAML_FLAG_OPTIONAL
 #define OPTIONAL_POINTER (CYAML_FLAG_OPTIONAL | CYAML_FLAG_POINTER)
 #define OPTIONAL_STRICT (CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT)
@@ -21,7 +25,6 @@ static const cyaml_strval_t integrator_names[] = {{"erk", HYPOFAB_ERK}, {"cvode"
 static const cyaml_strval_t frame_names[] = {
     {"xyz", DECK_FRAME_XYZ}, {"stress", DECK_FRAME_STRESS}, {"delta", DECK_FRAME_DELTA}};
 static const cyaml_strval_t imposed_names[] = {{"strain", HYPOFAB_IMPOSE_STRAIN}, {"stress", HYPOFAB_IMPOSE_STRESS}};
-static const cyaml_strval_t drive_names[] = {{"strain", 0}, {"stress", 1}};
 static const cyaml_strval_t keep_names[] = {
     {"all", HYPOFAB_KEEP_ALL}, {"reversals", HYPOFAB_KEEP_REVERSALS}, {"end", HYPOFAB_KEEP_END}};
 static const cyaml_strval_t ends_names[] = {{"step", 0}, {"test", 1}};
@@ -124,26 +127,13 @@ static const cyaml_schema_field_t stop_fields[] = {
     CHOICE("measure", deck_stop, measure, measure_names), CHOICE("ends", deck_stop, ends, ends_names), CYAML_FIELD_END};
 static const cyaml_schema_value_t stop_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_stop, stop_fields)};
 
-const char *const deck_preset_keys[DECK_N_PRESET_NUMBERS] = {"rate",   "lode",   "b",      "alpha",     "stiffness",
-                                                             "p_rate", "q_rate", "b_rate", "alpha_rate"};
-#define PRESET_NUMBER(index, name) CYAML_FIELD_FLOAT_PTR(name, OPTIONAL, deck_step, number[index])
-
-static const cyaml_schema_field_t step_fields[] = {
+/* With room for those of presets, which go behind (deck_schema). */
+enum { MOST_STEP_FIELDS = 32 + DECK_MOST_PRESET_KEYS };
+static cyaml_schema_field_t step_fields[MOST_STEP_FIELDS] = {
     OPTIONAL_TEXT("name", deck_step, name),
     OPTIONAL_TEXT("preset", deck_step, preset),
     CHOICE("axis", deck_step, axis, axis_names),
     CHOICE("normal", deck_step, normal, axis_names),
-    CHOICE("drive", deck_step, drive, drive_names),
-    PRESET_NUMBER(0, "rate"),
-    PRESET_NUMBER(1, "lode"),
-    PRESET_NUMBER(2, "b"),
-    PRESET_NUMBER(3, "alpha"),
-    PRESET_NUMBER(4, "stiffness"),
-    PRESET_NUMBER(5, "p_rate"),
-    PRESET_NUMBER(6, "q_rate"),
-    PRESET_NUMBER(7, "b_rate"),
-    PRESET_NUMBER(8, "alpha_rate"),
-    SIX_NUMBERS("direction", deck_step, direction),
     CYAML_FIELD_MAPPING_PTR("control", OPTIONAL_POINTER, deck_step, control, control_fields),
     CYAML_FIELD_SEQUENCE("conditions", OPTIONAL_POINTER, deck_step, conditions, &condition_value, 1, CYAML_UNLIMITED),
     CYAML_FIELD_MAPPING_PTR("table", OPTIONAL_POINTER, deck_step, table, table_fields),
@@ -214,7 +204,18 @@ static const cyaml_schema_field_t deck_fields[] = {
     CYAML_FIELD_SEQUENCE("envelopes", OPTIONAL_POINTER, deck, envelopes, &envelope_value, 0, CYAML_UNLIMITED),
     CYAML_FIELD_END};
 
-const cyaml_schema_value_t deck_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, deck, deck_fields)};
+static void complete_schema(void) {
+  int n = 0;
+  while (step_fields[n].key) ++n;
+  deck_add_preset_keys(step_fields + n);
+}
+
+const cyaml_schema_value_t *deck_schema(void) {
+  static const cyaml_schema_value_t whole = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, deck, deck_fields)};
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, complete_schema);
+  return &whole;
+}
 
 const char *deck_unit_name(deck_unit unit) { return unit_names[unit].str; }
 

@@ -117,17 +117,16 @@ typedef struct deck_stop {
   int *ends; /**< 0: the step; 1: the test */
 } deck_stop;
 
-/** Parameters of presets by name, in the order of deck_preset_keys. */
-enum { DECK_N_PRESET_NUMBERS = 9 };
+/** Most parameters of all presets together, but for the frame. */
+enum { DECK_MOST_PRESET_KEYS = 32 };
 
 typedef struct deck_step {
   char *name;
   char *preset;
   int *axis;
   int *normal;
-  int *drive;
-  double *number[DECK_N_PRESET_NUMBERS]; /**< keys: deck_preset_keys */
-  double *direction;
+  void *parameter[DECK_MOST_PRESET_KEYS]; /**< keys: deck_preset_key (preset_keys.h). A choice is int *, others are
+                                               double * */
   deck_control *control;
   deck_condition *conditions;
   unsigned conditions_count;
@@ -141,9 +140,6 @@ typedef struct deck_step {
   deck_mark *every;
   double *max_time;
 } deck_step;
-
-/** Keys of deck_step.number: rate, lode, b, ... */
-extern const char *const deck_preset_keys[DECK_N_PRESET_NUMBERS];
 
 typedef struct deck_test {
   char *name;
@@ -209,7 +205,7 @@ typedef struct deck {
 extern const cyaml_schema_field_t deck_parameter_fields[];
 
 /** Schema of a whole deck, for libcyaml and for deck_check_form (form.h). */
-extern const cyaml_schema_value_t deck_schema;
+const cyaml_schema_value_t *deck_schema(void);
 
 /** Name of a unit, a sign or a frame as decks write it. */
 const char *deck_unit_name(deck_unit unit);

@@ -8,7 +8,7 @@ import json
 import os
 import weakref
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -28,48 +28,52 @@ Mark = tuple[str, float] | Mapping[str, Any]
 """A quantity and a value: ("eps_zz", -0.1), or a mapping as in decks."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class Step:
-    """A step of an element test. Fields are the keys of a step in decks; None: not given."""
+    """A step of an element test. Arguments are the keys of a step in decks; None: not given."""
 
-    name: str | None = None
-    preset: str | None = None
-    """a named test, hypofab presets; or control, conditions, table"""
-    axis: str | None = None
-    normal: str | None = None
-    drive: str | None = None
-    rate: float | None = None
-    lode: float | None = None
-    b: float | None = None
-    alpha: float | None = None
-    stiffness: float | None = None
-    p_rate: float | None = None
-    q_rate: float | None = None
-    b_rate: float | None = None
-    alpha_rate: float | None = None
-    direction: Sequence[float] | None = None
-    control: Mapping[str, Any] | None = None
-    conditions: Sequence[Mapping[str, Any]] | None = None
-    table: Mapping[str, Any] | None = None
-    pore_water: Mapping[str, Any] | None = None
-    until: Mark | None = None
-    stop: Sequence[Mapping[str, Any]] | None = None
-    cycle: Mapping[str, Any] | None = None
-    rows: int | None = None
-    every: Mark | None = None
-    max_time: float | None = None
-    more: Mapping[str, Any] | None = None
-    """further keys of a step"""
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        preset: str | None = None,
+        control: Mapping[str, Any] | None = None,
+        conditions: Sequence[Mapping[str, Any]] | None = None,
+        table: Mapping[str, Any] | None = None,
+        pore_water: Mapping[str, Any] | None = None,
+        until: Mark | None = None,
+        stop: Sequence[Mapping[str, Any]] | None = None,
+        cycle: Mapping[str, Any] | None = None,
+        rows: int | None = None,
+        every: Mark | None = None,
+        max_time: float | None = None,
+        more: Mapping[str, Any] | None = None,
+        **parameters: float | str | Sequence[float] | None,
+    ) -> None:
+        """preset: a named test (hypofab presets), its parameters (axis, rate, lode, ...) as further arguments; or
+        control, conditions or table. more: further keys.
+        """
+        given = locals()
+        keys = [key for key in given if key not in ("self", "more", "parameters")]
+        given = {key: given[key] for key in keys} | parameters
+        self._given = {key: value for key, value in given.items() if value is not None} | dict(more or {})
+        for key in ("until", "every"):
+            if isinstance(self._given.get(key), tuple):
+                quantity, value = self._given[key]
+                self._given[key] = {"quantity": quantity, "value": value}
+
+    def __repr__(self) -> str:
+        """As it is written."""
+        return f"Step({', '.join(f'{key}={value!r}' for key, value in self._given.items())})"
+
+    def __eq__(self, other: object) -> bool:
+        """With the same keys and values."""
+        return isinstance(other, Step) and self._given == other._given
+
+    __hash__ = None
 
     def mapping(self) -> dict[str, Any]:
         """The step as decks have it."""
-        given = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "more"}
-        given = {key: value for key, value in given.items() if value is not None} | dict(self.more or {})
-        for key in ("until", "every"):
-            if isinstance(given.get(key), tuple):
-                quantity, value = given[key]
-                given[key] = {"quantity": quantity, "value": value}
-        return given
+        return dict(self._given)
 
 
 @dataclass(frozen=True, kw_only=True)

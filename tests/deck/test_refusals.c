@@ -149,7 +149,7 @@ static const refusal meaning_refusals[] = {
     {"preset: oedometer_loading", "preset: oedometer", 27, "tests[0].steps[0].preset", "oedometer",
      "oedometer_loading"},
     {"        preset: oedometer_loading\n", "", 26, "tests[0].steps[0]", "neither of 'preset'", "one of them"},
-    {"        axis: z\n", "", 26, "tests[0].steps[0]", "'axis' is missing", "x, y, z"},
+    {"        axis: z\n", "", 26, "tests[0].steps[0]", "misses axis", "x, y, z"},
     {"rate: 2", "rate: -2", 29, "tests[0].steps[0].rate", "-2", "above 0"},
     {"quantity: eps_zz, value: -0.001", "quantity: eps_z, value: -0.001", 30, "tests[0].steps[0].until.quantity",
      "'eps_z'", "time, eps_xx, eps_yy"},

@@ -213,12 +213,12 @@ static void wrong_steps_are_refused(void **state) {
     const char *step, *key, *message;
   } wrong[] = {
       {"{preset: drained_biaxial_compression, axis: z, until: {quantity: eps_zz, value: -0.1}}", "",
-       "key 'normal' is missing for preset 'drained_biaxial_compression', expected one of x, y, z"},
+       "preset drained_biaxial_compression misses normal, expected one of x, y, z"},
       {"{preset: drained_biaxial_compression, axis: z, normal: z, until: {quantity: eps_zz, value: -0.1}}", ".normal",
        "normal is the axis"},
-      {"{preset: radial_constant_p, axis: z, until: {quantity: eps_q, value: 0.1}}", "", "key 'lode' is missing"},
+      {"{preset: radial_constant_p, axis: z, until: {quantity: eps_q, value: 0.1}}", "", "preset radial_constant_p misses lode"},
       {"{preset: drained_triaxial_compression, axis: z, lode: 3, until: {quantity: eps_q, value: 0.1}}", ".lode",
-       "no meaning for preset 'drained_triaxial_compression', expected among axis, rate, drive"},
+       "preset drained_triaxial_compression takes no 'lode', expected among axis, rate, drive"},
       {"{preset: hollow_cylinder_shear, axis: z, normal: y, b: 2, alpha: 0, until: {quantity: q, value: 10}}", ".b",
        "b is 2, expected 0 to 1"},
       {"{preset: oedometer_loading, axis: z}", "", "'until' is missing"},

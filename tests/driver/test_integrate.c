@@ -1,6 +1,8 @@
 /* The integrators agree: explicit Runge-Kutta, backward differentiation, and an implicit system without mixed control.
  */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hypofab.h"
@@ -118,23 +120,27 @@ static void test_reversal_inside_a_step(void **unused) {
   compare(&material, &state, steps, 4, HYPOFAB_OK);
 }
 
-/* A preset with a value for each parameter that it must have. */
-static hypofab_status fill_preset(hypofab_step *step, const char *name) {
-  static const hypofab_argument values[] = {{"axis", {2}},
-                                            {"normal", {1}},
-                                            {"lode", {20}},
-                                            {"stiffness", {1e4}},
-                                            {"b", {0.4}},
-                                            {"alpha", {30}},
-                                            {"direction", {0, 0.2, -1, 0, 0, 0}}};
-  hypofab_argument arguments[8];
-  int n = 0, required;
-  const char *parameter;
-  for (int k = 0; (parameter = hypofab_preset_parameter(name, k, &required)); k++)
-    for (size_t i = 0; required && i < sizeof values / sizeof *values; i++)
-      if (strcmp(values[i].name, parameter) == 0) arguments[n++] = values[i];
-  if (strcmp(name, "hollow_cylinder") == 0) arguments[n++] = (hypofab_argument){"alpha_rate", {1}};
-  return hypofab_step_preset_with(step, name, arguments, n);
+/* The example of a parameter, which is written as in decks. */
+static hypofab_argument example_of(const hypofab_preset_parameter *parameter) {
+  hypofab_argument argument = {parameter->name, {0}};
+  double *v = argument.value;
+  if (parameter->kind == HYPOFAB_TENSOR)
+    assert_int_equal(sscanf(parameter->example, "[%lf, %lf, %lf, %lf, %lf, %lf]", v, v + 1, v + 2, v + 3, v + 4, v + 5),
+                     6);
+  else if (parameter->kind == HYPOFAB_CHOICE)
+    while (strcmp(parameter->choices[(int)*v], parameter->example) != 0) ++*v;
+  else
+    *v = strtod(parameter->example, NULL);
+  return argument;
+}
+
+/* A preset with the example of each parameter that it must have. */
+static hypofab_status fill_preset(hypofab_step *step, const hypofab_preset *preset) {
+  hypofab_argument arguments[12];
+  int n = 0;
+  for (int k = 0; preset->parameters[k]; k++)
+    if (preset->parameters[k]->need != HYPOFAB_OPTIONAL) arguments[n++] = example_of(preset->parameters[k]);
+  return hypofab_step_preset_with(step, preset->name, arguments, n);
 }
 
 /* Every preset from an anisotropic state: mixed control of every kind, an end that nothing prescribes, and a reversal
@@ -146,11 +152,11 @@ static void test_every_preset(void **unused) {
   hypofab_state state = {{-80, -90, -150, 0, 0, 0}, {0}, 0.7};
   state.delta[2] = -material.R * (1.0 - 1e-15);
   int n_compared = 0;
-  const char *name;
-  for (int i = 0; (name = hypofab_preset_name(i)); i++) {
+  const hypofab_preset *preset;
+  for (int i = 0; (preset = hypofab_preset_at(i)); i++) {
     hypofab_step step;
     memset(&step, 0, sizeof step);
-    assert_int_equal(fill_preset(&step, name), HYPOFAB_OK);
+    assert_int_equal(fill_preset(&step, preset), HYPOFAB_OK);
     step.until = (hypofab_mark){HYPOFAB_EPS_PATH, 1e-3};
     step.rows = 4;
     compare(&material, &state, &step, 1, HYPOFAB_OK);

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 /* clang-format on */
 
-enum { ROWS = 400, MOST_ARGUMENTS = 5 };
+enum { ROWS = 400, MOST_ARGUMENTS = 5, MOST_PARAMETERS = 12 };
 
 /* A preset, and what must be true of it in the frame a n l = z y x: names of held quantities, "i=j" for stresses that
  * change alike, "i+j" for strains or stresses whose sum is held, and one "i~r" for what is driven at the rate r. */
@@ -206,17 +206,43 @@ static void test_each_preset_is_what_it_says(void **unused) {
 static void test_every_preset_is_tested(void **unused) {
   (void)unused;
   int n = 0;
-  for (const char *name; (name = hypofab_preset_name(n)); n++) {
-    int i = 0, required;
-    while (i < N_EXPECTATIONS && strcmp(expectations[i].name, name) != 0) i++;
+  for (const hypofab_preset *preset; (preset = hypofab_preset_at(n)); n++) {
+    int i = 0, k = 0;
+    while (i < N_EXPECTATIONS && strcmp(expectations[i].name, preset->name) != 0) i++;
     assert_true(i < N_EXPECTATIONS);
-    assert_true(strlen(hypofab_preset_description(n)) > 10);
-    for (i = 0; hypofab_preset_parameter(name, i, &required); i++) continue;
-    assert_true(i > 0);
+    assert_ptr_equal(hypofab_preset_find(preset->name), preset);
+    assert_true(strlen(preset->description) > 10);
+    for (; preset->parameters[k]; k++) {
+      const hypofab_preset_parameter *one = preset->parameters[k];
+      assert_true(*one->name && *one->example && *one->expected && one->text && one->unit);
+      assert_true(one->kind != HYPOFAB_CHOICE || one->choices[0]);
+      for (int j = 0; j < k; j++) assert_string_not_equal(preset->parameters[j]->name, one->name);
+    }
+    assert_true(k > 0 && k <= MOST_PARAMETERS);
   }
   assert_null(hypofab_preset_name(-1));
-  assert_null(hypofab_preset_description(n));
-  assert_null(hypofab_preset_parameter("triaxial", 0, NULL));
+  assert_null(hypofab_preset_at(n));
+  assert_null(hypofab_preset_find("triaxial"));
+}
+
+/* What a refusal is about travels as data. */
+static void test_refusals_name_the_parameter(void **unused) {
+  (void)unused;
+  hypofab_step step = {0};
+  const struct {
+    hypofab_argument arguments[3];
+    int n;
+    const char *subject;
+  } bad[] = {{{{"axis", {2}}}, 1, "lode"},
+             {{{"axis", {2}}, {"lode", {30}}, {"drive", {2}}}, 3, "drive"},
+             {{{"axis", {2}}, {"speed", {30}}}, 2, "speed"},
+             {{{"axis", {2}}, {"lode", {NAN}}}, 2, "lode"}};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    assert_int_equal(hypofab_step_preset_with(&step, "radial_constant_p", bad[i].arguments, bad[i].n),
+                     HYPOFAB_BAD_ARGUMENT);
+    assert_int_equal(hypofab_last_subject()->about, HYPOFAB_ABOUT_ARGUMENT);
+    assert_string_equal(hypofab_last_subject()->name, bad[i].subject);
+  }
 }
 
 /* Another frame is the same test with the axes renamed: the state turned with it gives the same numbers. */
@@ -323,6 +349,7 @@ int main(void) {
       cmocka_unit_test(test_presets_turn_with_their_axes),
       cmocka_unit_test(test_isotropic_compression_of_an_isotropic_state),
       cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_refusals_name_the_parameter),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

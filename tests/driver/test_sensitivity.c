@@ -34,10 +34,11 @@ static subject start(int intergranular) {
 static void preset(subject *s, int step, const char *name, double rate, hypofab_quantity quantity, double value,
                    int rows) {
   const hypofab_argument all[] = {{"rate", {rate}}, {"axis", {2}}, {"normal", {1}}};
-  int required, n = 1;
-  for (int i = 0; hypofab_preset_parameter(name, i, &required); i++) {
-    if (!strcmp(hypofab_preset_parameter(name, i, NULL), "axis") && n < 2) n = 2;
-    if (!strcmp(hypofab_preset_parameter(name, i, NULL), "normal")) n = 3;
+  const hypofab_preset *about = hypofab_preset_find(name);
+  int n = 1;
+  for (int i = 0; about->parameters[i]; i++) {
+    if (!strcmp(about->parameters[i]->name, "axis") && n < 2) n = 2;
+    if (!strcmp(about->parameters[i]->name, "normal")) n = 3;
   }
   assert_int_equal(hypofab_step_preset_with(&s->steps[step], name, all, n), HYPOFAB_OK);
   s->steps[step].until = (hypofab_mark){quantity, value};

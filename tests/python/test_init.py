@@ -1,6 +1,7 @@
 """`hypofab init` writes decks that run, for every preset."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -49,3 +50,19 @@ def test_nothing_is_overwritten_and_wrong_names_are_refused(tmp_path: Path) -> N
     assert "there is no preset 'oedometer'" in hypofab("init", "oedometer").stderr
     assert hypofab("init", "oedometer_loading", "--sand", "sahara").returncode == 2
     assert "expected the name of a test" in hypofab("init").stderr
+
+
+def test_presets_stand_in_the_documentation() -> None:
+    """Each preset has a row in docs/element_tests.md (`a_loading`, `_unloading` stands for two), with what it takes."""
+    text = (ROOT / "docs/element_tests.md").read_text()
+    rows = [line.split("|") for line in text.splitlines() if line.startswith("| `")]
+    documented = {}
+    for row in rows:
+        names = re.findall(r"`(\w+)`", row[1])
+        for name in names:
+            documented[names[0].rpartition("_")[0] + name if name.startswith("_") else name] = row[2]
+    blocks = re.findall(r"^(\w+)\n +.+\n +(.+)$", hypofab("presets").stdout, re.MULTILINE)
+    assert len(blocks) > 20
+    for name, parameters in blocks:
+        for parameter in parameters.split():
+            assert parameter.startswith("[") or parameter in documented[name], (name, parameter)
