@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 
 import hypofab
-from hypofab.calibration_figures import draw
-from hypofab.calibration_report import CalibrationResult, LabComparison
+from hypofab.figures.calibration import draw
 from hypofab.laboratory.calibration import calibration_of
 from hypofab.laboratory.catalogue import LabTest, load_catalogue
+from hypofab.results.calibration import CalibrationResult, LabComparison
 
 PLAIN = ("phi_c", "h_s", "n", "alpha", "beta")
 

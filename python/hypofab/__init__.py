@@ -9,31 +9,31 @@ from importlib import import_module
 from hypofab.errors import HypofabError, InputError, InternalError, PhysicalError, Status
 
 _HOMES = {
-    "calibrations": ("Calibration", "CalibrationResult", "FreeParameter", "LabComparison", "calibrate"),
-    "decks": ("Step", "Study", "Test", "TestResult", "element_test", "run"),
-    "fabric_changes": (
+    "calibration.calibrate": ("Calibration", "CalibrationResult", "FreeParameter", "LabComparison", "calibrate"),
+    "decks.study": ("Step", "Study", "Test", "TestResult", "element_test", "run"),
+    "fabric.changes": (
         *("Directions", "Estimate", "FabricChange", "FabricResponse", "MechanismFit", "Rose"),
         *("changes", "directions", "fit_fabric_response"),
     ),
-    "fabrics": (
+    "fabric.samples": (
         *("Fabric", "InitialDelta", "Significance", "fabric_of_file", "fabric_of_normals", "fabric_of_tensor"),
         "weights",
     ),
     "library": ("version",),
-    "materials": ("Material", "Parameter", "Sand", "parameters", "sands"),
-    "model": (
+    "model.materials": ("Material", "Parameter", "Sand", "parameters", "sands"),
+    "model.points": (
         *("Branch", "Increment", "LinearParts", "Points", "Rate", "State"),
         *("linear_parts", "rate", "update", "update_many"),
     ),
-    "plots": ("plot", "plot_directions", "plot_envelopes", "plot_fabrics"),
-    "probing": (
+    "figures.memory": ("plot", "plot_directions", "plot_envelopes", "plot_fabrics"),
+    "model.probing": (
         *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability"),
         "triangles",
     ),
     "sampling": ("quasi_random",),
     "sweeps.sobol_indices": ("SobolIndices", "sobol", "sobol_indices"),
     "sweeps.sweep": ("SweepResult", "read_sweep", "sweep"),
-    "uncertainty": ("FitOfC", "Interval", "Stiffness", "Uncertainty", "bootstrap"),
+    "fabric.uncertainty": ("FitOfC", "Interval", "Stiffness", "Uncertainty", "bootstrap"),
     "tensors": ("COMPONENTS", "components", "matrix"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}

@@ -8,28 +8,25 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hypofab import (
-    calibration_figures,
-    contact_files,
-    cycles,
-    dilatancy,
-    fabric_command,
-    figures,
-    papers,
-    path_figures,
-    probe_surfaces,
-    sensitivity_figures,
-    stability_figures,
-    stiffness,
-    sweep_command,
-)
+from hypofab import papers
+from hypofab.cli import fabric as fabric_command
+from hypofab.cli import sweep_options as sweep_command
+from hypofab.cli.laboratory import report as laboratory
+from hypofab.cli.launch import packaged_program
 from hypofab.errors import HypofabError, InputError
+from hypofab.fabric import contact_files
+from hypofab.figures import calibration as calibration_figures
+from hypofab.figures import cycles, dilatancy
+from hypofab.figures import element_tests as figures
+from hypofab.figures import paths as path_figures
+from hypofab.figures import sensitivities as sensitivity_figures
+from hypofab.figures import stability as stability_figures
+from hypofab.figures import surfaces as probe_surfaces
 from hypofab.laboratory.catalogue import CatalogueError
-from hypofab.laboratory.report import report as laboratory
-from hypofab.launch import packaged_program
-from hypofab.measured import read_measured
-from hypofab.probes import has_probes, is_classical, read_probes
-from hypofab.results import ResultError, find_envelopes, read_envelope, read_run
+from hypofab.results import secants as stiffness
+from hypofab.results.element_tests import ResultError, find_envelopes, read_envelope, read_run
+from hypofab.results.measured import read_measured
+from hypofab.results.probes import has_probes, is_classical, read_probes
 
 
 def labelled_directory(text: str) -> tuple[str, Path]:

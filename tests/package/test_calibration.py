@@ -8,10 +8,10 @@ import pytest
 
 import hypofab
 from hypofab.__main__ import main
-from hypofab.calibration_report import read_calibration
+from hypofab.cli.launch import packaged_program
 from hypofab.laboratory.calibration import calibration_of
 from hypofab.laboratory.catalogue import load_catalogue
-from hypofab.launch import packaged_program
+from hypofab.results.calibration import read_calibration
 
 LAB_DATA = os.environ.get("HYPOFAB_LAB_DATA")
 

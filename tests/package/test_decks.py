@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import hypofab
-from hypofab.launch import packaged_program
+from hypofab.cli.launch import packaged_program
 
 TENSORS = ("xx", "yy", "zz", "xy", "xz", "yz")
 

@@ -16,7 +16,7 @@ import pytest
 import hypofab
 from hypofab import _core
 from hypofab.__main__ import parser
-from hypofab.launch import packaged_program
+from hypofab.cli.launch import packaged_program
 
 PACKAGE = Path(hypofab.__file__).parent
 COMMAND = Path(sys.executable).with_name("hypofab")
@@ -123,7 +123,7 @@ def test_shells_complete_commands_of_python() -> None:
 
 def test_modules_that_call_the_program_find_the_installed_one(examples: Path) -> None:
     code = (
-        "from hypofab.contacts import delta; from hypofab.__main__ import default_program; import sys\n"
+        "from hypofab.fabric.contacts import delta; from hypofab.__main__ import default_program; import sys\n"
         "print(delta(sys.argv[1], R=1e-4, c=0.05)['delta'], default_program())"
     )
     printed = run(sys.executable, "-c", code, examples / "data" / "iso_3000_contacts.txt.gz")

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import hypofab
-from hypofab.plots import KINDS
+from hypofab.figures.memory import KINDS
 
 SAND = hypofab.Material.sand("hochstetten")
 START = hypofab.State.isotropic(100, 0.7, [0, 0, -5e-5, 0, 0, 0])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import hypofab
-from hypofab.launch import packaged_program
+from hypofab.cli.launch import packaged_program
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "examples/data"

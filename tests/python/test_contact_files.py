@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from hypofab.__main__ import main
-from hypofab.contact_files import ContactFileError, convert
+from hypofab.fabric.contact_files import ContactFileError, convert
 
 dask = pytest.importorskip("dask", reason="dask is missing: python/requirements-test.txt")
 h5py = pytest.importorskip("h5py", reason="h5py is missing: python/requirements-contacts.txt")

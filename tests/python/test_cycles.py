@@ -9,7 +9,7 @@ import pytest
 from conftest import write_csv, write_summary
 
 from hypofab.__main__ import main
-from hypofab.cycles import accumulation, figure, read_accumulations, table
+from hypofab.figures.cycles import accumulation, figure, read_accumulations, table
 from hypofab.results import ResultError
 
 PROGRAM = os.environ.get("HYPOFAB_PROGRAM")

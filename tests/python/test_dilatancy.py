@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hypofab.__main__ import main
-from hypofab.dilatancy import (
+from hypofab.figures.dilatancy import (
     DrainedTest,
     critical_ratio,
     critical_states,

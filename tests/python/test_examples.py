@@ -8,10 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hypofab import paper000
 from hypofab.__main__ import main
-from hypofab.results import read_envelope, read_run, read_summary
-from hypofab.stiffness import secant_stiffness
+from hypofab.results import paper000, read_envelope, read_run, read_summary
+from hypofab.results.secants import secant_stiffness
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("HYPOFAB_PROGRAM")

@@ -6,10 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hypofab import change_figures, fabric_figures, uncertainty_figures
 from hypofab.__main__ import main
-from hypofab.fabric_results import Result, read_json, read_series, tensor
+from hypofab.figures import changes as change_figures
+from hypofab.figures import fabric as fabric_figures
+from hypofab.figures import uncertainty as uncertainty_figures
 from hypofab.results import ResultError
+from hypofab.results.fabric import Result, read_json, read_series, tensor
 
 FABRIC = [-0.07, 0.14, -0.07, 0.01, 0.0, 0.02]
 

@@ -8,9 +8,9 @@ import pytest
 
 from hypofab.__main__ import main
 from hypofab.figures import stress_path, stress_strain, volumetric
-from hypofab.measured import quantity, read_measured
-from hypofab.path_figures import axial_component, compression, limiting_void_ratio, loops
+from hypofab.figures.paths import axial_component, compression, limiting_void_ratio, loops
 from hypofab.results import ResultError, Run, read_run
+from hypofab.results.measured import quantity, read_measured
 
 SAND = {"h_s": 1e6, "n": 0.25, "e_d0": 0.55, "e_c0": 0.95, "e_i0": 1.05, "p_t": 0.0, "phi_c": 33.0}
 

@@ -7,11 +7,11 @@ import pytest
 from test_examples import PROGRAM, run_program
 
 from hypofab.__main__ import main
-from hypofab.probe_figures import deviatoric_coordinates, directional_stiffness, ellipse, fan, flow
-from hypofab.probe_surfaces import surfaces
-from hypofab.probes import Envelope, contraction, coordinates, read_probes
+from hypofab.figures.probes import deviatoric_coordinates, directional_stiffness, ellipse, fan, flow
+from hypofab.figures.surfaces import surfaces
 from hypofab.results import ResultError
-from hypofab.vtp import read_vtp
+from hypofab.results.probes import Envelope, contraction, coordinates, read_probes
+from hypofab.results.vtp import read_vtp
 
 needs_program = pytest.mark.skipif(PROGRAM is None, reason="HYPOFAB_PROGRAM does not name the program")
 

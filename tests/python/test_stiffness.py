@@ -5,9 +5,8 @@ from pathlib import Path
 import pytest
 from conftest import write_summary
 
-from hypofab import paper000
-from hypofab.results import ResultError, read_summary
-from hypofab.stiffness import secant_stiffness, table
+from hypofab.results import ResultError, paper000, read_summary
+from hypofab.results.secants import secant_stiffness, table
 
 
 def test_stiffness_of_each_test(run_directory: Path) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from hypofab.laboratory.catalogue import LabTest
 from hypofab.laboratory.series import Series, legs, read_computed
-from hypofab.results import ResultError, read_summary
+from hypofab.results.element_tests import ResultError, read_summary
 
 CYCLES = 60
 """Cycles computed at most in a cyclic test."""

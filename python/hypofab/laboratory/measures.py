@@ -6,7 +6,7 @@ import numpy as np
 
 from hypofab.laboratory.catalogue import LabTest
 from hypofab.laboratory.series import Series, legs, reversals
-from hypofab.results import Array
+from hypofab.results.element_tests import Array
 
 
 @dataclass(frozen=True)

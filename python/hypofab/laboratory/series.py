@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from hypofab.laboratory.catalogue import LabTest
-from hypofab.results import Array, ResultError, read_columns, read_numbers, read_test
+from hypofab.results.element_tests import Array, ResultError, read_columns, read_numbers, read_test
 
 
 @dataclass(frozen=True)

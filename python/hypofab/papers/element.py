@@ -11,8 +11,8 @@ import numpy as np
 
 from hypofab.papers.program import run, run_json
 from hypofab.papers.runs import DemRun
-from hypofab.probes import Envelope, read_probes
 from hypofab.results import TestResult, read_run
+from hypofab.results.probes import Envelope, read_probes
 
 SMALL = 1e-3
 """Deviatoric strain of the secant stiffness (paper 000)."""

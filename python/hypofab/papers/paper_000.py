@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from hypofab import paper000
 from hypofab.figures import line_style
 from hypofab.papers import draw
 from hypofab.papers.element import SMALL, Fit, Loading, element_tests, fit_c, secants
 from hypofab.papers.program import run_json
 from hypofab.papers.runs import Curve, DemRun, read_curve, read_dem
-from hypofab.results import TestResult
+from hypofab.results import TestResult, paper000
 
 TESTS = {"A-0": ("aniso", "y"), "A-90": ("aniso", "x"), "I-0": ("iso", "y"), "I-90": ("iso", "x")}
 PAPER_STATES = {"iso": (0.642, 2.41, 0.033), "aniso": (0.640, 2.43, 0.324)}

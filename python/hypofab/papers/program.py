@@ -6,7 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from hypofab.launch import packaged_program
+from hypofab.cli.launch import packaged_program
 from hypofab.results import ResultError
 
 

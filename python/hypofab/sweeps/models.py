@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from hypofab.decks import Study
+from hypofab.decks.study import Study
 from hypofab.errors import HypofabError, Status
-from hypofab.fabrics import fabric_of_file
+from hypofab.fabric.samples import fabric_of_file
 from hypofab.sweeps.deck_path import Step, replaced
 from hypofab.sweeps.outputs import Output
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from hypofab.decks import Study
+from hypofab.decks.study import Study
 from hypofab.errors import InputError, Status
 from hypofab.library import version
 from hypofab.sweeps.deck_path import PathError, path_text, replaced

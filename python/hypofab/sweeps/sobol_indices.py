@@ -37,7 +37,7 @@ class SobolIndices:
 
     def plot(self) -> "Figure":
         """A bar chart; several outputs beside each other: hypofab.sweeps.figures.sobol_bars."""
-        from hypofab.sweeps.figures import sobol_bars  # matplotlib, only where it is wanted
+        from hypofab.figures.sweeps import sobol_bars  # matplotlib, only where it is wanted
 
         return sobol_bars({self.output: self})
 

@@ -1,0 +1,1 @@
+"""Material parameters from laboratory tests."""

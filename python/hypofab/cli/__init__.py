@@ -1,0 +1,1 @@
+"""Commands of the program `hypofab` that are Python's."""

@@ -1,0 +1,1 @@
+"""Element tests: decks from files, mappings or objects, and their runs."""

@@ -1,0 +1,376 @@
+"""Element tests: decks from a file, from a mapping or from objects; results as structured arrays.
+
+A mapping has the keys of a deck file (docs/deck.md). Objects become such a mapping, and every deck goes the way of the
+program's: the same bits as `hypofab run`. Rows are in the sign and unit of the deck; objects are tension positive.
+"""
+
+import json
+import os
+import weakref
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hypofab.errors import HypofabError, InputError, PhysicalError, Status
+from hypofab.fabric.uncertainty import FitOfC, Stiffness, stiffnesses, units_and_replicates
+from hypofab.library import check, core, interruptible, last_message, text
+from hypofab.model.materials import Material
+from hypofab.model.points import State
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Mark = tuple[str, float] | Mapping[str, Any]
+"""A quantity and a value: ("eps_zz", -0.1), or a mapping as in decks."""
+
+
+class Step:
+    """A step of an element test. Arguments are the keys of a step in decks; None: not given."""
+
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        preset: str | None = None,
+        control: Mapping[str, Any] | None = None,
+        conditions: Sequence[Mapping[str, Any]] | None = None,
+        table: Mapping[str, Any] | None = None,
+        pore_water: Mapping[str, Any] | None = None,
+        until: Mark | None = None,
+        stop: Sequence[Mapping[str, Any]] | None = None,
+        cycle: Mapping[str, Any] | None = None,
+        rows: int | None = None,
+        every: Mark | None = None,
+        max_time: float | None = None,
+        more: Mapping[str, Any] | None = None,
+        **parameters: float | str | Sequence[float] | None,
+    ) -> None:
+        """preset: a named test (hypofab presets), its parameters (axis, rate, lode, ...) as further arguments; or
+        control, conditions or table. more: further keys.
+        """
+        given = locals()
+        keys = [key for key in given if key not in ("self", "more", "parameters")]
+        given = {key: given[key] for key in keys} | parameters
+        self._given = {key: value for key, value in given.items() if value is not None} | dict(more or {})
+        for key in ("until", "every"):
+            if isinstance(self._given.get(key), tuple):
+                quantity, value = self._given[key]
+                self._given[key] = {"quantity": quantity, "value": value}
+
+    def __repr__(self) -> str:
+        """As it is written."""
+        return f"Step({', '.join(f'{key}={value!r}' for key, value in self._given.items())})"
+
+    def __eq__(self, other: object) -> bool:
+        """With the same keys and values."""
+        return isinstance(other, Step) and self._given == other._given
+
+    __hash__ = None
+
+    def mapping(self) -> dict[str, Any]:
+        """The step as decks have it."""
+        return dict(self._given)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Test:
+    """An element test: a state of a material, and the steps it goes through."""
+
+    material: Material
+    state: State
+    steps: Sequence[Step | Mapping[str, Any]]
+    name: str = "test"
+    integrator: str | None = None
+    """erk (default), cvode or ida"""
+    tolerance: float | None = None
+    """relative tolerance of the integrator"""
+    stability: bool = False
+    """rows with the measures of stability too"""
+    sensitivities: Sequence[str] = ()
+    """numbers to differentiate the results with respect to: parameters, "void_ratio", "p", "sig_xx", ..."""
+
+    __test__ = False  # not one of pytest's
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TestResult:
+    """What a test led to: one row for each row of its result file, by the same names."""
+
+    name: str
+    rows: NDArray[np.void]
+    """structured: rows["eps_zz"], rows["q"], ...; "step" counts from 1"""
+    status: Status
+    """OK, or the physical reason why the test stopped early; the rows up to there are here"""
+    message: str
+    stopped_in: int | None
+    """the step it stopped in, from 1"""
+    integrator_steps: int
+    evaluations: int
+    unit: str
+    sign: int
+    """1: tension is positive, -1: compression is"""
+    material: Material
+    sensitivities: Mapping[str, Mapping[str, NDArray[np.float64]]] = field(default_factory=dict)
+    """derivatives of the rows: sensitivities["h_s"]["q"] is dq/dh_s; empty unless the test asks for them"""
+
+    __test__ = False
+
+    def __getitem__(self, quantity: str) -> NDArray:
+        """A column of the rows."""
+        return self.rows[quantity]
+
+    def check(self) -> "TestResult":
+        """Raise PhysicalError if the test stopped early; the result itself otherwise."""
+        if self.status:
+            raise PhysicalError(f"test '{self.name}' stopped early: {self.message}", self.status)
+        return self
+
+    def plot(self, kind: str = "stress_strain", **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
+        """A figure of this test; kinds, several tests in one figure, and options: hypofab.plot."""
+        from hypofab.figures.memory import plot  # matplotlib, only where it is wanted
+
+        return plot(self, kind, **options)
+
+
+class Study:
+    """A validated deck, with its contact lists and tables read.
+
+    deck: path of a file, a mapping, or tests as objects. folder: that of the paths in a mapping (default: here).
+    """
+
+    def __init__(
+        self,
+        deck: "str | os.PathLike | Mapping[str, Any] | Test | Iterable[Test]",
+        *,
+        folder: str | os.PathLike = ".",
+    ) -> None:
+        """Read and check; InputError names file, line, key, value and what was expected."""
+        if isinstance(deck, str | os.PathLike):
+            status, handle = core.study_load(os.fsencode(deck))
+        else:
+            mapping = deck if isinstance(deck, Mapping) else deck_of([deck] if isinstance(deck, Test) else deck)
+            name = os.path.normpath(os.path.join(os.fsdecode(folder), "deck"))
+            status, handle = core.study_parse(deck_text(mapping).encode(), os.fsencode(name))
+        check(status)
+        self._handle = int(handle[0])
+        weakref.finalize(self, core.study_free, self._handle)
+        tests, envelopes, states, self.sign = map(int, core.study_size(self._handle))
+        self.unit = text(core.study_unit(self._handle))
+        """unit of stress"""
+        self.tests, self.envelopes, self.states = (
+            tuple(text(core.study_name(self._handle, kind, index)) for index in range(count))
+            for kind, count in enumerate((tests, envelopes, states))
+        )
+        """names"""
+
+    def state(self, name: str) -> tuple[Material, State]:
+        """A state of the deck and its material, tension positive; delta of contact lists included."""
+        status, material, state = core.study_state(self._handle, self._index(self.states, name, "state"))
+        check(status)
+        return Material.from_numbers(material), State.from_numbers(state)
+
+    def run_test(self, name: str) -> TestResult:
+        """Run one test in memory. A physical end before the last step is in the result, and no exception."""
+        return interruptible(lambda stop: self._run(self._index(self.tests, name, "test"), stop))
+
+    def run(self) -> dict[str, TestResult]:
+        """Run every test in memory."""
+        return {name: self.run_test(name) for name in self.tests}
+
+    def write(self, directory: str | os.PathLike) -> None:
+        """Run every test into files as `hypofab run -o` does; then PhysicalError if one stopped early."""
+        self._into(core.study_run, directory)
+
+    def write_envelopes(self, directory: str | os.PathLike) -> None:
+        """Compute every envelope into files as `hypofab envelope -o` does."""
+        self._into(core.study_envelopes, directory)
+
+    def stiffness(
+        self,
+        *,
+        replicates: int = 0,
+        seed: int = 1,
+        blocks: int = 0,
+        level: float = 0.95,
+        corrected: bool = False,
+    ) -> dict[str, Stiffness]:
+        """Directional stiffness of every test, as `hypofab stiffness` prints it.
+
+        replicates: of a bootstrap of the states' contact lists, 20 or more (0: none); blocks: drawn in so many cubes
+        along each edge instead of contact by contact. corrected: deltas from fabrics without noise.
+        """
+        options = (*units_and_replicates("blocks" if blocks else "contacts", replicates, seed, blocks), int(corrected))
+        count = len(self.tests)
+
+        def call(stop: NDArray[np.intc]) -> NDArray[np.float64]:
+            status, numbers = core.study_stiffness(self._handle, options, level, stop, count)
+            check(status)
+            return numbers
+
+        return dict(zip(self.tests, stiffnesses(interruptible(call)), strict=True))
+
+    def fit_c(
+        self,
+        stiffness: Mapping[str, float],
+        *,
+        lower: float = 0.0,
+        upper: float = 0.0,
+        level: float = 0.95,
+        error: float = 0.0,
+        corrected: bool = False,
+    ) -> FitOfC:
+        """The c that matches given stiffnesses of tests best, in ratio, as `hypofab fit-c` does.
+
+        lower, upper: c is sought between them (0: 1e-3 and 10). error: relative standard error of each given stiffness
+        (0: from the residuals).
+        """
+        names = b"\x1f".join(name.encode() for name in stiffness)
+        given = np.array(list(stiffness.values()), dtype=np.float64)
+        if not len(given):
+            raise InputError("no stiffness given, expected 2 or more", Status.BAD_ARGUMENT)
+        options = (lower, upper, level, error, float(corrected))
+        status, numbers, computed, ends = core.study_fit_c(self._handle, names, given, options)
+        check(status)
+        found = dict(zip(stiffness, map(float, computed), strict=True))
+        return FitOfC(*map(float, numbers), found, *map(bool, ends))
+
+    def _into(self, call: Any, directory: str | os.PathLike) -> None:  # noqa: ANN401 - a function of the extension
+        interruptible(lambda stop: check(call(self._handle, os.fsencode(directory), stop)))
+
+    @staticmethod
+    def _index(names: tuple[str, ...], name: str, what: str) -> int:
+        if name not in names:
+            raise InputError(f"no {what} '{name}', expected one of {', '.join(names)}", Status.BAD_ARGUMENT)
+        return names.index(name)
+
+    def _run(self, index: int, stop: NDArray[np.intc]) -> TestResult:
+        status, rows, report = core.study_test_run(self._handle, index, stop)
+        message = last_message() if status else ""
+        count, width, step, integrator_steps, evaluations, varied = map(int, report)
+        if status >= Status.BAD_MATERIAL:
+            check(status)
+        try:
+            numbers = core.rows_take(int(rows[0]), count, width)
+            derivatives = self._derivatives(index, int(rows[0]), varied, count, width) if varied else {}
+        finally:
+            core.rows_free(int(rows[0]))
+        return TestResult(
+            name=self.tests[index],
+            rows=_structured(numbers),
+            status=Status(status),
+            message=message,
+            stopped_in=step + 1 if status else None,
+            integrator_steps=integrator_steps,
+            evaluations=evaluations,
+            unit=self.unit,
+            sign=self.sign,
+            sensitivities=derivatives,
+            material=self.state(self.states[core.study_test_state(self._handle, index)])[0],
+        )
+
+    def _derivatives(
+        self, index: int, rows: int, varied: int, count: int, width: int
+    ) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """By the number varied, then by quantity; those of stability, from work2 on, have none."""
+        quantities = [name for name in _columns(width) if name not in ("step", "event")]
+        if "work2" in quantities:
+            quantities = quantities[: quantities.index("work2")]
+        values = core.derivatives_take(rows, varied, len(quantities), count)
+        names = (text(core.study_sensitivity_name(self._handle, index, k)) for k in range(varied))
+        return {name: dict(zip(quantities, of_all, strict=True)) for name, of_all in zip(names, values, strict=True)}
+
+
+def run(
+    deck: "str | os.PathLike | Mapping[str, Any] | Test | Iterable[Test]", *, folder: str | os.PathLike = "."
+) -> dict[str, TestResult]:
+    """Run the tests of a deck file, a mapping or objects in memory: Study(deck).run()."""
+    return Study(deck, folder=folder).run()
+
+
+def element_test(
+    material: Material,
+    state: State,
+    steps: Step | Mapping[str, Any] | Sequence[Step | Mapping[str, Any]],
+    *,
+    name: str = "test",
+    integrator: str | None = None,
+    tolerance: float | None = None,
+    stability: bool = False,
+    sensitivities: Sequence[str] = (),
+) -> TestResult:
+    """Run one element test; arguments as in Test."""
+    several = [steps] if isinstance(steps, Step | Mapping) else steps
+    test = Test(
+        material=material,
+        state=state,
+        steps=several,
+        name=name,
+        integrator=integrator,
+        tolerance=tolerance,
+        stability=stability,
+        sensitivities=sensitivities,
+    )
+    return Study(test).run_test(test.name)
+
+
+def deck_of(tests: Iterable[Test]) -> dict[str, Any]:
+    """The deck of tests that are objects; stresses are in whatever unit h_s has."""
+    deck: dict[str, list] = {"materials": [], "states": [], "tests": []}
+    for index, test in enumerate(tests):
+        place = f"{index + 1}"
+        material = {"name": place, "parameters": test.material.parameters()}
+        if test.material.m_R <= 0.5:
+            material["intergranular"] = False
+        delta = {"components": test.state.delta} if test.state.delta.any() else {"zero": True}
+        state = {"name": place, "material": place, "stress": test.state.stress, "void_ratio": test.state.void_ratio}
+        options = {"integrator": test.integrator, "tolerance": test.tolerance, "stability": test.stability or None}
+        options["sensitivities"] = list(test.sensitivities) or None
+        deck["materials"].append(material)
+        deck["states"].append(state | {"delta": delta})
+        deck["tests"].append(
+            {"name": test.name, "state": place}
+            | {key: value for key, value in options.items() if value is not None}
+            | {"steps": [step.mapping() if isinstance(step, Step) else dict(step) for step in test.steps]}
+        )
+    return deck
+
+
+def deck_text(deck: Mapping[str, Any]) -> str:
+    """A mapping as the text of a deck, every number with all its digits. JSON is YAML."""
+
+    def plain(value: Any) -> Any:  # noqa: ANN401 - what JSON does not know
+        if isinstance(value, np.ndarray | np.generic):
+            return value.tolist()
+        if isinstance(value, os.PathLike):
+            return os.fspath(value)
+        if isinstance(value, Mapping):
+            return dict(value)
+        if isinstance(value, Step):
+            return value.mapping()
+        raise InputError(f"a deck holds no {type(value).__name__}: {value!r}", Status.BAD_ARGUMENT)
+
+    return json.dumps(deck, indent=1, ensure_ascii=False, default=plain)
+
+
+@cache
+def _columns(width: int) -> tuple[str, ...]:
+    """Names of the columns of `width` numbers, of which the last are step and event, in the order of result files."""
+    names = [text(core.quantity_name(index)) for index in range(width - 2)]
+    return (names[0], "step", *names[1:], "event")
+
+
+def _structured(numbers: NDArray[np.float64]) -> NDArray[np.void]:
+    names = _columns(numbers.shape[1])
+    whole = ("step", "event")
+    rows = np.empty(len(numbers), dtype=[(name, np.int64 if name in whole else np.float64) for name in names])
+    quantities = [name for name in names if name not in whole]
+    for column, name in enumerate([*quantities, *whole]):
+        rows[name] = numbers[:, column]
+    return rows
+
+
+__all__ = ["HypofabError", "Mark", "Step", "Study", "Test", "TestResult", "deck_of", "deck_text", "element_test", "run"]

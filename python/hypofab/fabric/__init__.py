@@ -1,0 +1,1 @@
+"""Contacts and their fabric: samples, changes, confidence."""

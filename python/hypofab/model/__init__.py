@@ -1,0 +1,1 @@
+"""The model: materials, states, rates and increments, probes of a state."""
