@@ -12,11 +12,20 @@ project = "hypofab"
 author = "the authors of hypofab"
 html_title = "hypofab"
 root_doc = "index"
-extensions = ["myst_nb", "breathe", "sphinx.ext.autodoc", "sphinx_copybutton", "generated"]
+extensions = [
+    "myst_nb",
+    "breathe",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",  # MathJax itself, so that the site needs no network
+    "sphinx_copybutton",
+    "generated",
+]
 
-# Markdown as a forge shows it: links to headings by their text.
+# Markdown as a forge shows it: links to headings by their text, mathematics between dollars and in blocks of its name.
 myst_heading_anchors = 4
-myst_enable_extensions = ["colon_fence"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_fence_as_directive = ["math"]
 
 # Notebooks are run whenever they are read; they are read again when the package has changed (generated.py).
 nb_execution_mode = "force"
