@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "deck/resolve/step_parts.h"
-#include "deck/source/preset_keys.h"
 
 enum { MOST_ARGUMENTS = DECK_MOST_PRESET_KEYS + 2 };
 

@@ -42,12 +42,12 @@ static cyaml_schema_value_t value_of(const hypofab_preset_parameter *key, cyaml_
       CYAML_VALUE_ENUM(CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT, int, choices, n)};
 }
 
-void deck_add_preset_keys(cyaml_schema_field_t fields[DECK_MOST_PRESET_KEYS]) {
+void deck_add_preset_keys(size_t offset, cyaml_schema_field_t fields[DECK_MOST_PRESET_KEYS]) {
   static cyaml_strval_t choices[DECK_MOST_PRESET_KEYS][MOST_CHOICES];
   const hypofab_preset_parameter *key;
   for (int i = 0; (key = deck_preset_key(i)); ++i) {
     fields[i].key = key->name;
-    fields[i].data_offset = (uint32_t)offsetof(deck_step, parameter[0]) + (uint32_t)(i * (int)sizeof(void *));
+    fields[i].data_offset = (uint32_t)(offset + (size_t)i * sizeof(void *));
     fields[i].value = value_of(key, choices[i]);
   }
 }

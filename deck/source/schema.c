@@ -1,8 +1,7 @@
 #include "deck/source/schema.h"
 
 #include <pthread.h>
-
-#include "deck/source/preset_keys.h"
+#include <stddef.h>
 
 #define OPTIONAL CYAML_FLAG_OPTIONAL
 #define OPTIONAL_POINTER (CYAML_FLAG_OPTIONAL | CYAML_FLAG_POINTER)
@@ -207,7 +206,7 @@ static const cyaml_schema_field_t deck_fields[] = {
 static void complete_schema(void) {
   int n = 0;
   while (step_fields[n].key) ++n;
-  deck_add_preset_keys(step_fields + n);
+  deck_add_preset_keys(offsetof(deck_step, parameter), step_fields + n);
 }
 
 const cyaml_schema_value_t *deck_schema(void) {

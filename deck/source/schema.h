@@ -10,6 +10,7 @@
 
 #include <cyaml/cyaml.h>
 
+#include "deck/source/preset_keys.h"
 #include "hypofab.h"
 
 /** Stress unit of a deck. */
@@ -116,9 +117,6 @@ typedef struct deck_stop {
   int *measure;
   int *ends; /**< 0: the step; 1: the test */
 } deck_stop;
-
-/** Most parameters of all presets together, but for the frame. */
-enum { DECK_MOST_PRESET_KEYS = 32 };
 
 typedef struct deck_step {
   char *name;
