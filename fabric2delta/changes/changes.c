@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/message.h"
-#include "fabric2delta/changes/rose.h"
+#include "fabric2delta/fabric/rose.h"
 #include "fabric2delta/changes/snapshot.h"
 #include "fabric2delta/fabric/fabric.h"
 #include "fabric2delta/stream/contact_stream.h"

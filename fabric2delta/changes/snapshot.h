@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 #include "fabric2delta/stream/id_counts.h"
 #include "hypofab.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/message.h"
-#include "fabric2delta/changes/bin_fit.h"
+#include "fabric2delta/fabric/bin_fit.h"
 #include "fabric2delta/fabric/force_anisotropy.h"
 
 enum { DEFAULT_BINS_SPACE = 100, DEFAULT_BINS_PLANE = 18, MOST_BINS = 10000 };

@@ -10,9 +10,9 @@
 
 #include <stdbool.h>
 
-#include "fabric2delta/changes/direction_bins.h"
+#include "fabric2delta/fabric/direction_bins.h"
 #include "fabric2delta/fabric/description_sums.h"
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 
 /** A description being made. Its memory does not depend on the number of contacts. */
 typedef struct description_work {

@@ -5,7 +5,7 @@
 #ifndef HYPOFAB_FABRIC2DELTA_DESCRIPTION_SUMS_H
 #define HYPOFAB_FABRIC2DELTA_DESCRIPTION_SUMS_H
 
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 #include "hypofab.h"
 
 /** Weighted moments of directions. */

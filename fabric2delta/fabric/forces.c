@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "fabric2delta/changes/bin_fit.h"
+#include "fabric2delta/fabric/bin_fit.h"
 #include "fabric2delta/fabric/description.h"
 #include "fabric2delta/fabric/force_anisotropy.h"
 

@@ -7,7 +7,7 @@
 #define HYPOFAB_FABRIC2DELTA_CONTACT_LAYOUT_H
 
 #include "base/text/table.h"
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 
 /** What a column may hold. Vectors take three places. */
 typedef enum contact_role {

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 #include "fabric2delta/stream/particles.h"
 
 /** What becomes of a contact. */

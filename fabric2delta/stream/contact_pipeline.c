@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "fabric2delta/changes/pair_set.h"
+#include "fabric2delta/stream/pair_set.h"
 
 void contact_pipeline_start(contact_pipeline *pipeline, contact_reader *reader, int threads, bool hashes_pairs) {
   long there = sysconf(_SC_NPROCESSORS_ONLN);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/changes/pair_set.h"
+#include "fabric2delta/stream/pair_set.h"
 #include "fabric2delta/stream/contact_filter.h"
 #include "fabric2delta/stream/contact_pipeline.h"
 

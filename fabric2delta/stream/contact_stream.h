@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 #include "fabric2delta/stream/particles.h"
 #include "hypofab.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "fabric2delta/changes/pair_set.h"
+#include "fabric2delta/stream/pair_set.h"
 
 static contact pair(int64_t id1, int64_t id2, int image) {
   return (contact){.id1 = id1, .id2 = id2, .cell = {image, 0, 0}};

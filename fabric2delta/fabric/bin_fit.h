@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "fabric2delta/changes/direction_bins.h"
+#include "fabric2delta/fabric/direction_bins.h"
 
 /** What is fitted: E0 (1 + P:nn), f0 (1 + Q:nn), f0 (T n - (n.T n) n). NaN where there are too few bins with contacts.
  */

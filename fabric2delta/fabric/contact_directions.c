@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/message.h"
-#include "fabric2delta/changes/direction_bins.h"
+#include "fabric2delta/fabric/direction_bins.h"
 #include "fabric2delta/stream/contact_stream.h"
 
 enum { DEFAULT_SPACE = 100, DEFAULT_PLANE = 18, MOST = 10000 };

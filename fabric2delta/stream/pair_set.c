@@ -1,4 +1,4 @@
-#include "fabric2delta/changes/pair_set.h"
+#include "fabric2delta/stream/pair_set.h"
 
 #include <stdlib.h>
 

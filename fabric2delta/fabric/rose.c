@@ -1,4 +1,4 @@
-#include "fabric2delta/changes/rose.h"
+#include "fabric2delta/fabric/rose.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -13,7 +13,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 
 /** Pairs seen. Zero but for `limit` is an empty set. */
 typedef struct pair_set {

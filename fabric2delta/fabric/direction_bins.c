@@ -1,4 +1,4 @@
-#include "fabric2delta/changes/direction_bins.h"
+#include "fabric2delta/fabric/direction_bins.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "fabric2delta/changes/bin_fit.h"
+#include "fabric2delta/fabric/bin_fit.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 
 #include <stddef.h>
 
-#include "fabric2delta/stream/contact.h"
+#include "fabric2delta/formats/contact.h"
 #include "hypofab.h"
 
 /** What is summed in one bin. */

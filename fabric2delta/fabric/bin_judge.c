@@ -2,7 +2,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-#include "fabric2delta/changes/bin_fit.h"
+#include "fabric2delta/fabric/bin_fit.h"
 #include "fabric2delta/fabric/description_sums.h"
 
 double chi_squared_tail(double x, int k) {
