@@ -53,7 +53,7 @@ static const struct argp_option options[] = {
     {.name = "weight",
      .key = KEY_WEIGHT,
      .arg = "NAME",
-     .doc = "Weight function f(a): exponential, 1 - exp(-a/c) (default), rational, tanh or linear"},
+     .doc = "Weight function f(a): %s (default: exponential, 1 - exp(-a/c))"},
     {.name = "corrected",
      .key = KEY_CORRECTED,
      .doc = "delta from F and a without the noise that the finite number of contacts adds to them"},
@@ -64,9 +64,8 @@ static const struct argp_option options[] = {
     {.name = "format",
      .key = KEY_FORMAT,
      .arg = "NAME",
-     .doc =
-         "Print nothing but the lines to paste into a deck, STATEV(1:6), or the input of a finite element code: deck, "
-         "statev, abaqus, kratos, calculix or ogs. Besides, and with it: what FILE is (below)"},
+     .doc = "Print nothing but the lines to paste into a deck, STATEV(1:6), or the input of a finite element code: %s. "
+            "Besides, and with it: what FILE is (below)"},
     {.name = "set", .key = KEY_SET, .arg = "NAME", .doc = "Element set of --format abaqus (default: SOIL)"},
     {.name = "void-ratio",
      .key = KEY_VOID_RATIO,
@@ -99,7 +98,8 @@ static const char doc[] =
 static const char *parse_weight(struct argp_state *state, const char *text) {
   for (int i = 0; hypofab_weight_name(i); i++)
     if (!strcmp(text, hypofab_weight_name(i))) return text;
-  argp_error(state, "--weight: '%s'; expected exponential, rational, tanh or linear", text);
+  char *names = list_names(hypofab_weight_name);
+  argp_error(state, "--weight: '%s'; expected %s", text, names ? names : "another");
   return NULL;
 }
 
@@ -111,9 +111,10 @@ static void parse_format(struct argp_state *state, const char *text, choices *ch
       chosen->contacts.format.kind = text;
       return;
     }
-  if (!format)
-    argp_error(state, "--format: '%s'; expected deck, statev, abaqus, kratos, calculix or ogs, or a kind of FILE",
-               text);
+  if (!format) {
+    char *names = list_names(delta_format_name);
+    argp_error(state, "--format: '%s'; expected %s, or a kind of FILE", text, names ? names : "another");
+  }
   chosen->format = format;
 }
 
@@ -273,6 +274,12 @@ static int refuse_disks(const char *part) {
   return CLI_BAD_INPUT;
 }
 
+static char *complete_help(int key, const char *text, void *input) {
+  (void)input;
+  if (key == KEY_WEIGHT) return help_with_names(text, hypofab_weight_name);
+  return key == KEY_FORMAT ? help_with_names(text, delta_format_name) : (char *)text;
+}
+
 int cmd_delta(int argc, char **argv) {
   static const struct argp_child children[] = {{.argp = &contact_argp, .group = 1},
                                                {.argp = &uncertainty_argp, .group = 2},
@@ -282,7 +289,8 @@ int cmd_delta(int argc, char **argv) {
                                      .parser = parse,
                                      .args_doc = "FILE...\n--N XX,YY,ZZ,XY,XZ,YZ",
                                      .doc = doc,
-                                     .children = children};
+                                     .children = children,
+                                     .help_filter = complete_help};
   choices chosen = {.contacts = {.several = true},
                     .uncertainty = uncertainty_defaults,
                     .R = 1e-4,

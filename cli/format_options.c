@@ -30,10 +30,7 @@ enum {
 
 static const struct argp_option options[] = {
     {.doc = "What FILE is (docs/contact_files.md):", .group = 1},
-    {.name = "file-format",
-     .key = KEY_FORMAT,
-     .arg = "KIND",
-     .doc = "table, lammps, vtk, npy, mercury, pfc or spam (default: what FILE shows)"},
+    {.name = "file-format", .key = KEY_FORMAT, .arg = "KIND", .doc = "%s (default: what FILE shows)"},
     {.name = "columns",
      .key = KEY_COLUMNS,
      .arg = "ROLE=COLUMN,...",
@@ -164,7 +161,12 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   return 0;
 }
 
-const struct argp format_argp = {.options = options, .parser = parse};
+static char *complete_help(int key, const char *text, void *input) {
+  (void)input;
+  return key == KEY_FORMAT ? help_with_names(text, hypofab_contact_kind) : (char *)text;
+}
+
+const struct argp format_argp = {.options = options, .parser = parse, .help_filter = complete_help};
 
 /* The library says 1 at the end of a file, also of one that it refuses: then the bar goes. */
 static int show_reading(const char *what, double fraction, void *user) {

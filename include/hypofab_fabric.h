@@ -46,10 +46,10 @@ typedef enum hypofab_walls {
 typedef struct hypofab_contact_format {
   const char *id1, *id2, *nx, *ny, *nz; /**< column names, or 1-based column numbers as text; default: these names */
   char separator;                       /**< comma, semicolon, tab, blank, or 0: what the first row shows */
-  int64_t particles;            /**< N_p; 0: the particle file if given, else the number of different ids in the list */
-  const char *particle_file;    /**< particle list: one row per particle; column "id" when it has a header */
-  const char *kind;             /**< "table", "lammps", "vtk", "mercury", "pfc", "spam", "npy"; NULL: what it shows */
-  const char *columns;          /**< more columns: "ROLE=COLUMN,ROLE=COLUMN,..." (docs/contact_files.md) */
+  int64_t particles;         /**< N_p; 0: the particle file if given, else the number of different ids in the list */
+  const char *particle_file; /**< particle list: one row per particle; column "id" when it has a header */
+  const char *kind;    /**< its format, one of hypofab_contact_kind ("table", "lammps", ...); NULL: what it shows */
+  const char *columns; /**< more columns: "ROLE=COLUMN,ROLE=COLUMN,..." (docs/contact_files.md) */
   const char *particle_columns; /**< the same for the particle file: id, x, y, z, radius, volume, ax, ay, az */
   int dimension;                /**< 2: disks in the plane x, y, tensors have xx, yy, xy; 0 or 3: spheres */
   int has_timestep;             /**< whether `timestep` is given */

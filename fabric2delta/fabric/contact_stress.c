@@ -1,7 +1,7 @@
 /* Stress of a sample from its contacts (paper 003, Eqs. 10 to 12), in the sign of this library: tension positive. */
-#include <math.h>
+#include "fabric2delta/fabric/contact_stress.h"
 
-#include "fabric2delta/fabric/description.h"
+#include <math.h>
 
 void contact_stress_scale(double volume, const double sum[3][3], double stress[3][3]) {
   for (int i = 0; i < 3; i++)

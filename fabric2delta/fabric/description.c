@@ -4,7 +4,9 @@
 
 #include "base/message.h"
 #include "fabric2delta/fabric/bin_fit.h"
+#include "fabric2delta/fabric/contact_stress.h"
 #include "fabric2delta/fabric/force_anisotropy.h"
+#include "fabric2delta/fabric/forces.h"
 
 enum { DEFAULT_BINS_SPACE = 100, DEFAULT_BINS_PLANE = 18, MOST_BINS = 10000 };
 

@@ -10,19 +10,7 @@
 
 #include <stdbool.h>
 
-#include "fabric2delta/fabric/direction_bins.h"
-#include "fabric2delta/fabric/description_sums.h"
-#include "fabric2delta/formats/contact.h"
-
-/** A description being made. Its memory does not depend on the number of contacts. */
-typedef struct description_work {
-  hypofab_describe_options options; /**< defaults filled in */
-  unsigned has;                     /**< what all contacts carry */
-  first_sums first;
-  second_sums second;
-  direction_bins bins;
-  hypofab_direction_fabric normals; /**< by number, known after the first pass */
-} description_work;
+#include "fabric2delta/fabric/description_work.h"
 
 /** Begin. @param options NULL for the defaults @return HYPOFAB_BAD_ARGUMENT, HYPOFAB_NO_MEMORY */
 hypofab_status description_begin(description_work *work, const hypofab_describe_options *options);
@@ -56,24 +44,5 @@ void description_free(description_work *work);
 
 /** Fabric of summed directions (direction_fabric.f90). @return HYPOFAB_INTERNAL_ERROR when LAPACK fails */
 hypofab_status description_directions(int dimension, const contact_moments *moments, hypofab_direction_fabric *fabric);
-
-/** Stress from sums [j][i] of f_i l_j (contact_stress.c). @param volume 0: not known */
-void contact_stress_describe(int dimension, double volume, const double normal[3][3], const double tangential[3][3],
-                             hypofab_contact_stress *stress);
-
-/** -(1/V) sum f_i l_j from sums [j][i]; NaN without volume. */
-void contact_stress_scale(double volume, const double sum[3][3], double stress[3][3]);
-
-/** Stress ratio q/p and mobilised sin(phi) of a stress, tension positive; NaN without compression. */
-void contact_stress_ratios(int dimension, const double stress[6], double *q_over_p, double *sin_phi);
-
-/** Sizes, directions and predicted stress of an anisotropy whose tensors are set (forces.c). */
-hypofab_status force_anisotropy_complete(int dimension, hypofab_force_anisotropy *anisotropy);
-
-/** The anisotropy from averages over directions (forces.c). All NaN when the density of contacts is not positive. */
-hypofab_status force_anisotropy_from_sums(const description_work *work, hypofab_force_anisotropy *anisotropy);
-
-/** The anisotropy by least squares on bins (forces.c). */
-hypofab_status force_anisotropy_from_bins(const description_work *work, hypofab_force_anisotropy *anisotropy);
 
 #endif

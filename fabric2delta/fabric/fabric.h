@@ -5,6 +5,8 @@
 #ifndef HYPOFAB_FABRIC2DELTA_FABRIC_H
 #define HYPOFAB_FABRIC2DELTA_FABRIC_H
 
+#include <stdbool.h>
+
 #include "hypofab.h"
 
 /** Add n (x) n of a block of n normals (three numbers each) to six running sums. */
@@ -22,5 +24,11 @@ void hypofab_fabric_count_coordination(int64_t contacts, int64_t ends, int64_t p
 
 /** A and delta of a fabric and its weight f; delta is NaN where A = 0. */
 void hypofab_fabric_map_to_delta(const hypofab_fabric *fabric, double R, double weight, hypofab_initial_delta *map);
+
+/** Is a fabric of two dimensions? */
+static inline bool fabric_is_plane(const hypofab_fabric *fabric) {
+  /* In three dimensions contacts in a plane have F_zz = -5/2. */
+  return fabric->fabric[2] == 0.0 && fabric->deviatoric_fabric[2] == 0.0;
+}
 
 #endif

@@ -1,10 +1,12 @@
 /* Anisotropy of contacts and forces over directions, from sums of all contacts and from bins. */
+#include "fabric2delta/fabric/forces.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/message.h"
 #include "fabric2delta/fabric/bin_fit.h"
-#include "fabric2delta/fabric/description.h"
+#include "fabric2delta/fabric/contact_stress.h"
 #include "fabric2delta/fabric/force_anisotropy.h"
 
 static void fill(double *numbers, size_t n, double value) {
@@ -41,7 +43,8 @@ static void predict(int dimension, hypofab_force_anisotropy *a) {
   a->sin_phi_coaxial_short = (a->a_n + a->a_f + a->a_t) / 2.0;
 }
 
-hypofab_status force_anisotropy_complete(int dimension, hypofab_force_anisotropy *a) {
+/* Sizes, directions and predicted stress of an anisotropy whose tensors are set. */
+static hypofab_status complete(int dimension, hypofab_force_anisotropy *a) {
   hypofab_status status = measure(dimension, a->contact, &a->a_n, a->direction_n, &a->phi_n);
   if (!status) status = measure(dimension, a->normal, &a->a_f, a->direction_f, &a->phi_f);
   if (!status) status = measure(dimension, a->tangential, &a->a_t, a->direction_t, &a->phi_t);
@@ -71,7 +74,7 @@ hypofab_status force_anisotropy_from_sums(const description_work *work, hypofab_
       hypofab_anisotropy_from_moments(dimension, moment, &mean, a->branch);
     }
   }
-  return force_anisotropy_complete(dimension, a);
+  return complete(dimension, a);
 }
 
 hypofab_status force_anisotropy_from_bins(const description_work *work, hypofab_force_anisotropy *a) {
@@ -85,5 +88,5 @@ hypofab_status force_anisotropy_from_bins(const description_work *work, hypofab_
     memcpy(a->normal, fit.normal, sizeof a->normal);
     if (work->has & CONTACT_HAS_SHEAR) memcpy(a->tangential, fit.tangential, sizeof a->tangential);
   }
-  return force_anisotropy_complete(work->options.dimension, a);
+  return complete(work->options.dimension, a);
 }

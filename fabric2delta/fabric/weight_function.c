@@ -53,5 +53,6 @@ hypofab_status weight_function_value(const char *name, double a, double c, doubl
     const size_t used = strlen(known);
     snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", functions[i].name);
   }
-  return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "weight function '%s'; expected one of %s", name, known);
+  return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, "weight",
+                            "weight function '%s'; expected one of %s", name, known);
 }

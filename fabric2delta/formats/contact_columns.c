@@ -1,9 +1,11 @@
 /* Which columns are looked for: what the user names, laid over what is usual. */
 #define _GNU_SOURCE /* strtok_r */
+#include "fabric2delta/formats/contact_columns.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/formats/contact_reader.h"
+#include "base/message.h"
 
 /* Beside the names of the roles themselves: those of YADE scripts. Nothing ambiguous: a column "x" may be anything. */
 const char *const contact_table_names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] = {

@@ -3,13 +3,13 @@
  * @brief What a contact file format is: how its bytes are fetched, one chunk after the other, and how a chunk becomes
  * contacts, several chunks at once.
  *
- * A new format is one file read_<format>.c that fills a contact_reader, and one row of the table in contact_formats.c.
- * Formats made of lines with one contact each only say what their columns are and use text_reader_open.
+ * A new format is one file read_<format>.c that fills a contact_reader and ends with the row contact_<format>, and the
+ * name of that row in contact_formats.c. Formats made of lines with one contact each only say what their columns are
+ * and use text_reader_open.
  */
 #ifndef HYPOFAB_FABRIC2DELTA_CONTACT_READER_H
 #define HYPOFAB_FABRIC2DELTA_CONTACT_READER_H
 
-#include "base/message.h"
 #include "fabric2delta/formats/contact_layout.h"
 
 /** A piece of a file and its contacts. */
@@ -60,59 +60,18 @@ static inline void contact_chunk_add(contact_chunk *chunk, contact_problem probl
 /** What to say of a contact: "PROBLEM; expected ..." by kind. @param expected set */
 const char *contact_problem_text(contact_problem problem, const char **expected);
 
-/** The names under which the roles are looked for: those of the format given, else the usual ones. */
-typedef struct contact_columns {
-  table_request requests[CONTACT_ROLES];
-  char *names; /**< owned */
-} contact_columns;
-
-/**
- * @brief What the user says about columns, laid over what is usual in a file format.
- * @param usual names by role; NULL entries, and NULL itself: only the names of the user
- */
-hypofab_status contact_columns_make(contact_columns *columns, const hypofab_contact_format *format,
-                                    const char *const (*usual)[TABLE_OTHER_NAMES + 1]);
-
-/** Free the memory. */
-void contact_columns_free(contact_columns *columns);
-
-/** Names usual in tables of contacts. */
-extern const char *const contact_table_names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1];
-
-/** What a format of lines needs to say. */
-typedef struct text_reader_options {
-  const char *header;  /**< names of the columns; NULL: the file has them where tables have them */
-  int64_t rows;        /**< lines that hold contacts, after which the reader stops; negative: all */
-  const char *no_more; /**< rows given: what may not follow them, "ITEM:"; NULL: anything may */
-  bool comment_ends;   /**< a comment after the first row begins another time step, which is refused */
-} text_reader_options;
-
-/** Read rows of numbers: reader->input stands before the first row, or before the header. Takes over `columns`. */
-hypofab_status text_reader_open(contact_reader *reader, const hypofab_contact_format *format, contact_columns *columns,
-                                const text_reader_options *options);
-
-/** Read a binary array of NumPy; names of fields or numbers of columns. */
-hypofab_status npy_reader_open(contact_reader *reader, const hypofab_contact_format *format,
-                               const char *const (*usual)[TABLE_OTHER_NAMES + 1]);
-
-/** Whether a file begins as .npy files do. */
-bool npy_begins(const lines *input);
-
 /** Refuse a contact of a file without lines: "FILE: row 17: the normal (...) has length ..." */
 hypofab_status contact_refuse_by_values(const char *path, const char *unit, int64_t number, const contact *one,
                                         contact_problem problem, int id_role);
 
-/** The formats: each opens a reader on a file whose input is open and whose layout is empty. */
-hypofab_status read_table(contact_reader *reader, const hypofab_contact_format *format);
-hypofab_status read_lammps(contact_reader *reader, const hypofab_contact_format *format);
-hypofab_status read_vtk(contact_reader *reader, const hypofab_contact_format *format);
-hypofab_status read_mercury(contact_reader *reader, const hypofab_contact_format *format);
-hypofab_status read_pfc(contact_reader *reader, const hypofab_contact_format *format);
-hypofab_status read_spam(contact_reader *reader, const hypofab_contact_format *format);
-hypofab_status read_npy(contact_reader *reader, const hypofab_contact_format *format);
-
-/** Open a file with the format it shows or the one that is asked for. */
-hypofab_status contact_reader_open(contact_reader *reader, const char *path, const hypofab_contact_format *format);
+/** A format of contact files: its row. */
+typedef struct contact_kind {
+  const char *name;
+  /** Does a file show that it has this format, by its path or its first characters? NULL: only when it is asked for. */
+  bool (*recognises)(const char *path, const char *head);
+  /** Open a reader on a file whose input is open and whose layout is empty. */
+  hypofab_status (*open)(contact_reader *reader, const hypofab_contact_format *format);
+} contact_kind;
 
 /** Close the file and free the memory. */
 void contact_reader_close(contact_reader *reader);

@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/formats/contact_reader.h"
+#include "base/message.h"
 #include "fabric2delta/formats/lammps_dump.h"
+#include "fabric2delta/formats/read_text.h"
 
 static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] = {
     [ROLE_ID1] = {"id1", "patom1", "atom1"},
@@ -18,7 +19,7 @@ static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] = {
     [ROLE_FNX + 2] = {"fz"},
 };
 
-hypofab_status read_lammps(contact_reader *reader, const hypofab_contact_format *format) {
+static hypofab_status open_lammps(contact_reader *reader, const hypofab_contact_format *format) {
   contact_columns columns;
   hypofab_status status = contact_columns_make(&columns, format, names);
   if (status) return status;
@@ -38,3 +39,10 @@ hypofab_status read_lammps(contact_reader *reader, const hypofab_contact_format 
   free(head.columns);
   return status;
 }
+
+static bool is_lammps(const char *path, const char *head) {
+  (void)path;
+  return lammps_dump_begins(head);
+}
+
+const contact_kind contact_lammps = {"lammps", is_lammps, open_lammps};

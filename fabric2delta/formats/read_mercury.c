@@ -4,7 +4,9 @@
  *
  * A contact of two particles stands there once from each side; the normal points from the second to the first, on
  * which the forces act. Rows of walls have both the other way round. */
-#include "fabric2delta/formats/contact_reader.h"
+#include <string.h>
+
+#include "fabric2delta/formats/read_text.h"
 
 static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] =
     {
@@ -13,7 +15,7 @@ static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] =
         [ROLE_NX + 1] = {"12"}, [ROLE_NX + 2] = {"13"}, [ROLE_TX] = {"14"}, [ROLE_TX + 1] = {"15"},
         [ROLE_TX + 2] = {"16"}};
 
-hypofab_status read_mercury(contact_reader *reader, const hypofab_contact_format *format) {
+static hypofab_status open_mercury(contact_reader *reader, const hypofab_contact_format *format) {
   contact_columns columns;
   hypofab_status status = contact_columns_make(&columns, format, names);
   if (status) return status;
@@ -25,3 +27,11 @@ hypofab_status read_mercury(contact_reader *reader, const hypofab_contact_format
   const text_reader_options options = {.rows = -1, .comment_ends = true};
   return text_reader_open(reader, format, &columns, &options);
 }
+
+static bool is_mercury(const char *path, const char *head) {
+  (void)head;
+  const char *name = strrchr(path, '/');
+  return strstr(name ? name : path, ".fstat") != NULL;
+}
+
+const contact_kind contact_mercury = {"mercury", is_mercury, open_mercury};

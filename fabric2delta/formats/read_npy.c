@@ -1,9 +1,11 @@
 /* Binary arrays of NumPy, one contact per row: no text to parse, read as fast as memory is. */
+#include "fabric2delta/formats/read_npy.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/formats/contact_reader.h"
+#include "base/message.h"
 #include "fabric2delta/formats/npy_head.h"
 
 /* Rows of a chunk: few enough for their contacts to stay in the cache of a core until they are summed. */
@@ -17,8 +19,10 @@ typedef struct npy_reader {
   int64_t delivered;
 } npy_reader;
 
+static const char magic[] = "\x93NUMPY";
+
 bool npy_begins(const lines *input) {
-  return input->end - input->begin > 6 && !memcmp(input->window + input->begin, "\x93NUMPY", 6);
+  return input->end - input->begin > strlen(magic) && !memcmp(input->window + input->begin, magic, strlen(magic));
 }
 
 static void close_npy(contact_reader *reader) { free(reader->own); }
@@ -162,6 +166,13 @@ hypofab_status npy_reader_open(contact_reader *reader, const hypofab_contact_for
   return status;
 }
 
-hypofab_status read_npy(contact_reader *reader, const hypofab_contact_format *format) {
+static hypofab_status open_npy(contact_reader *reader, const hypofab_contact_format *format) {
   return npy_reader_open(reader, format, contact_table_names);
 }
+
+static bool is_npy(const char *path, const char *head) {
+  (void)path;
+  return !strncmp(head, magic, strlen(magic));
+}
+
+const contact_kind contact_npy = {"npy", is_npy, open_npy};

@@ -1,6 +1,6 @@
 /* Tables written by FISH or Python from Itasca's PFC, with the columns named after the FISH functions they come from:
  * contact.normal points from end 1 to end 2, contact.force.global is the force on end 2. */
-#include "fabric2delta/formats/contact_reader.h"
+#include "fabric2delta/formats/read_text.h"
 
 #define VECTOR(role, name)                                                                      \
   [role] = {"contact." name ".x", name ".x"}, [(role) + 1] = {"contact." name ".y", name ".y"}, \
@@ -14,7 +14,7 @@ static const char *const names[CONTACT_ROLES][TABLE_OTHER_NAMES + 1] = {
     VECTOR(ROLE_FX, "force.global"),
 };
 
-hypofab_status read_pfc(contact_reader *reader, const hypofab_contact_format *format) {
+static hypofab_status open_pfc(contact_reader *reader, const hypofab_contact_format *format) {
   contact_columns columns;
   hypofab_status status = contact_columns_make(&columns, format, names);
   if (status) return status;
@@ -23,3 +23,5 @@ hypofab_status read_pfc(contact_reader *reader, const hypofab_contact_format *fo
   const text_reader_options options = {.rows = -1};
   return text_reader_open(reader, format, &columns, &options);
 }
+
+const contact_kind contact_pfc = {.name = "pfc", .open = open_pfc};

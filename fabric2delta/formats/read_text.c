@@ -1,9 +1,11 @@
 /* Files with one contact per line, whatever their columns: blocks of whole lines, parsed side by side. */
+#include "fabric2delta/formats/read_text.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/formats/contact_reader.h"
+#include "base/message.h"
 
 typedef struct text_reader {
   contact_columns columns;

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/message.h"
+#include "fabric2delta/formats/contact_columns.h"
 #include "fabric2delta/formats/contact_reader.h"
 #include "fabric2delta/formats/vtk_sections.h"
 
@@ -202,7 +204,7 @@ static hypofab_status open_arrays(contact_reader *reader, const hypofab_contact_
   return status ? status : contact_layout_settle(&reader->layout, reader->input.path);
 }
 
-hypofab_status read_vtk(contact_reader *reader, const hypofab_contact_format *format) {
+static hypofab_status open_vtk(contact_reader *reader, const hypofab_contact_format *format) {
   if (reader->input.begin < reader->input.end && reader->input.window[reader->input.begin] == '<')
     return refuse_xml(&reader->input);
   vtk_reader *own = calloc(1, sizeof *own);
@@ -214,3 +216,12 @@ hypofab_status read_vtk(contact_reader *reader, const hypofab_contact_format *fo
   reader->close = close_vtk;
   return open_arrays(reader, format);
 }
+
+static bool begins(const char *head, const char *beginning) { return !strncmp(head, beginning, strlen(beginning)); }
+
+static bool is_vtk(const char *path, const char *head) {
+  (void)path;
+  return begins(head, "# vtk DataFile") || begins(head, "<?xml") || begins(head, "<VTKFile");
+}
+
+const contact_kind contact_vtk = {"vtk", is_vtk, open_vtk};

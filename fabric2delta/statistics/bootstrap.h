@@ -12,9 +12,6 @@
 /** Components of a deviator in an orthonormal basis; two of them in two dimensions. */
 enum { DEVIATOR_SIZE = 5, PLANE_DEVIATOR_SIZE = 2 };
 
-/** Is a fabric of two dimensions? */
-bool hypofab_fabric_is_plane(const hypofab_fabric *fabric);
-
 /** Contacts with weights: the sum of weights, and of weight times n (x) n. */
 typedef struct drawn_sum {
   double weight, sums[6];

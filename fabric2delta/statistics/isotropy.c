@@ -6,11 +6,9 @@
  * so N_c a^2/11.25 is the sum of squares of five standard normals. */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
-#include <stdbool.h>
 
 #include "base/message.h"
 #include "fabric2delta/fabric/fabric.h"
-#include "fabric2delta/statistics/bootstrap.h"
 
 /* What differs between two dimensions and three. */
 typedef struct dimension {
@@ -21,7 +19,7 @@ typedef struct dimension {
 
 static dimension dimension_of(const hypofab_fabric *fabric) {
   static const dimension plane = {8.0, 2.0, 2.0}, space = {1.5 * 7.5 * 7.5, 3.0, 5.0};
-  return hypofab_fabric_is_plane(fabric) ? plane : space;
+  return fabric_is_plane(fabric) ? plane : space;
 }
 
 static double square_norm(const double x[6]) {
@@ -31,11 +29,6 @@ static double square_norm(const double x[6]) {
 /* What independent contacts add to a^2: unbiased, as (1 - N:N) N_c/(N_c - 1) estimates 1 - M:M without bias. */
 static double independent_noise2(const hypofab_fabric *fabric) {
   return dimension_of(fabric).square_factor * (1.0 - square_norm(fabric->fabric)) / (double)(fabric->contacts - 1);
-}
-
-bool hypofab_fabric_is_plane(const hypofab_fabric *fabric) {
-  /* In three dimensions contacts in a plane have F_zz = -5/2. */
-  return fabric->fabric[2] == 0.0 && fabric->deviatoric_fabric[2] == 0.0;
 }
 
 static hypofab_status check_contacts(const hypofab_fabric *fabric) {
@@ -69,7 +62,7 @@ hypofab_status hypofab_fabric_correct(const hypofab_fabric *fabric, double noise
   if (status) return status;
   const double a = fabric->anisotropy, wanted = without_noise(a, noise2 < 0.0 ? independent_noise2(fabric) : noise2);
   const double share = a > 0.0 ? wanted / a : 0.0;
-  const bool plane = hypofab_fabric_is_plane(fabric);
+  const bool plane = fabric_is_plane(fabric);
   const int size = plane ? 2 : 3;
   hypofab_fabric result = *fabric;
   double tensor[6];

@@ -7,6 +7,7 @@
 
 #include <pthread.h>
 
+#include "base/message.h"
 #include "fabric2delta/formats/contact_reader.h"
 
 enum { MOST_THREADS = 16, MOST_CHUNKS = 2 * MOST_THREADS + 2 };

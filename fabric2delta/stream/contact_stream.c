@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fabric2delta/stream/pair_set.h"
+#include "base/message.h"
+#include "fabric2delta/formats/contact_formats.h"
 #include "fabric2delta/stream/contact_filter.h"
 #include "fabric2delta/stream/contact_pipeline.h"
+#include "fabric2delta/stream/pair_set.h"
 
 enum { DEFAULT_DUPLICATE_MEMORY = 32 };
 

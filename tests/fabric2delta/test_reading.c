@@ -356,7 +356,7 @@ static void test_columns(void **state) {
   const hypofab_contact_format half = {.columns = "nx=ux,ny=uy"};
   REFUSE(path, &half, "a column of nx, but none nz");
   const hypofab_contact_format kind = {.kind = "yade"};
-  REFUSE(path, &kind, "format 'yade'; expected table, lammps");
+  REFUSE(path, &kind, "format 'yade'; expected one of lammps, vtk");
 }
 
 static int stop_at_once(const char *what, double fraction, void *user) {
