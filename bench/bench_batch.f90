@@ -181,8 +181,8 @@ contains
       if (status(k) == status_ok .and. outcome == status_ok) &
         error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
     end do
-    write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, best / rate_cost, &
-      real(sum(evaluations), wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
+    write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, &
+      best / rate_cost, real(sum(evaluations), wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
   end subroutine time_batch
 
 end program bench_batch

@@ -30,8 +30,10 @@ program bench_model
   write (*, '(a, f0.1, a)') 'one rate: ', rate_cost, ' ns'
   do j = 1, size(tolerances)
     write (*, '(/, a, es8.1)') 'tolerance ', tolerances(j)
-    write (*, '(a)') '               stress only                     with tangent                    stress error (relative)          tangent error (relative)'
-    write (*, '(a)') '|strain|  median ns  in rates  evaluations  median ns  in rates  evaluations     median   99 %     worst     median   99 %     worst   failed'
+    write (*, '(a)') '               stress only                     with tangent                    '// &
+      'stress error (relative)          tangent error (relative)'
+    write (*, '(a)') '|strain|  median ns  in rates  evaluations  median ns  in rates  evaluations     '// &
+      'median   99 %     worst     median   99 %     worst   failed'
     do i = 1, n_sizes
       call time_updates(sizes(i), tolerances(j))
     end do

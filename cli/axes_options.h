@@ -20,6 +20,6 @@ typedef struct axes_options {
 extern const struct argp axes_argp;
 
 /** Turn a fabric into the axes the user asked for, in place. */
-hypofab_status axes_options_apply(const axes_options *options, hypofab_fabric *fabric);
+hypofab_status axes_options_apply(const axes_options *chosen, hypofab_fabric *fabric);
 
 #endif

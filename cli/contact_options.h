@@ -28,7 +28,7 @@ typedef struct contact_options {
 extern const struct argp contact_argp;
 
 /** The fabric the user asked for. */
-hypofab_status contact_options_fabric(const contact_options *options, hypofab_fabric *fabric);
+hypofab_status contact_options_fabric(const contact_options *chosen, hypofab_fabric *fabric);
 
 /** What reading told beside the fabric; NULL where that is not known: for N, and for several files. */
 const hypofab_sample *contact_options_sample(const contact_options *options);

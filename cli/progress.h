@@ -17,7 +17,7 @@ typedef struct progress_bar {
 progress_bar progress_start(void);
 
 /** A hypofab_progress: draws the bar when the percentage has changed; non-zero once Ctrl-C was pressed. */
-int progress_show(const char *what, double fraction, void *bar);
+int progress_show(const char *what, double fraction, void *user);
 
 /** Wipe the bar off the screen. */
 void progress_end(const progress_bar *bar);

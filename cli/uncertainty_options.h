@@ -28,7 +28,7 @@ extern const uncertainty_options uncertainty_defaults;
 extern const struct argp uncertainty_argp;
 
 /** Call at ARGP_KEY_END: a usage error for options that do not go together. */
-void uncertainty_check(struct argp_state *state, const contact_options *contacts, const uncertainty_options *options);
+void uncertainty_check(struct argp_state *state, const contact_options *contacts, const uncertainty_options *chosen);
 
 /** What is known about the uncertainty of a fabric. All zero before uncertainty_find. */
 typedef struct uncertainty {
@@ -45,7 +45,7 @@ typedef struct uncertainty {
  * @brief The fabric the user asked for, its significance, and its replicates.
  * @param fabric of one list or tensor, or of several lists pooled
  */
-hypofab_status uncertainty_read(const contact_options *contacts, const uncertainty_options *options,
+hypofab_status uncertainty_read(const contact_options *contacts, const uncertainty_options *chosen,
                                 hypofab_fabric *fabric, uncertainty *found);
 
 /**
