@@ -1,4 +1,4 @@
-!> The working precision of the constitutive model.
+!> The working precision of the constitutive model, and pi in it.
 !>
 !> Double precision; the tests compile the same sources in quadruple precision (HYPOFAB_QUADRUPLE) to check derivatives
 !> and rounding against a more exact arithmetic.
@@ -11,4 +11,5 @@ module umat_kinds
 #else
   integer, parameter, public :: wp = real64
 #endif
+  real(wp), parameter, public :: pi = 3.14159265358979323846264338327950288_wp
 end module umat_kinds

@@ -4,7 +4,7 @@
 !> here knows a sign convention or a unit.
 module umat_tensor
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use umat_kinds, only: wp
+  use umat_kinds, only: pi, wp
   implicit none
   private
   public :: ddot, norm, trace, deviator, trace_of_cube, squared, is_negative_definite, rotate, diagonalise
@@ -167,7 +167,7 @@ contains
     else
       sine = 1.0_wp
     end if
-    phi = asin(max(0.0_wp, min(1.0_wp, sine))) * 180.0_wp / acos(-1.0_wp)
+    phi = asin(max(0.0_wp, min(1.0_wp, sine))) * 180.0_wp / pi
   end function friction_angle
 
 end module umat_tensor

@@ -18,9 +18,11 @@ module umat_integration
   ! For many points side by side (batch/begin.f90).
   public :: vanishing, first_step, first_from_zero, nearly
 
+  real(wp), parameter :: usual_tolerance = 1.0e-6_wp
+
   !> Options of an update.
   type :: options_type
-    real(wp) :: tolerance = 1.0e-6_wp !< relative error of stress, delta (of R) and void ratio
+    real(wp) :: tolerance = usual_tolerance !< relative error of stress, delta (of R) and void ratio
     integer :: max_evaluations = 20000 !< bound on rate evaluations
   end type options_type
 
@@ -153,8 +155,7 @@ contains
     type(options_type), intent(in) :: options
     logical, intent(in) :: with_tangent
     real(wp) :: part
-    type(options_type), parameter :: default = options_type()
-   part = merge(step_with_tangent, step_of_R, with_tangent) * (options%tolerance / default%tolerance)**(1.0_wp / 7.0_wp)
+    part = merge(step_with_tangent, step_of_R, with_tangent) * (options%tolerance / usual_tolerance)**(1.0_wp / 7.0_wp)
   end function first_step
 
 end module umat_integration

@@ -3,7 +3,7 @@
 !> The order is that of PROPS(1..16) of the UMAT and of hypofab_material in hypofab.h.
 module umat_material
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use umat_kinds, only: wp
+  use umat_kinds, only: pi, wp
   use umat_status, only: status_ok, status_bad_material
   implicit none
   private
@@ -174,7 +174,7 @@ contains
     real(wp), intent(in) :: props(n_parameters)
     real(wp) :: a
     real(wp) :: sine
-    sine = sin(props(i_phi_c) * acos(-1.0_wp) / 180.0_wp)
+    sine = sin(props(i_phi_c) * pi / 180.0_wp)
     a = sqrt(3.0_wp) * (3.0_wp - sine) / (2.0_wp * sqrt(2.0_wp) * sine)
   end function limit_constant
 

@@ -4,7 +4,7 @@
 !> the parameters of von Wolffersdorff's model alone, X and weight on those of the intergranular strain.
 module umat_parameter_derivative
   use umat_intergranular, only: intergranular_type, share_of
-  use umat_kinds, only: wp
+  use umat_kinds, only: pi, wp
   use umat_material, only: material_type, n_parameters, i_phi_c, i_p_t, i_h_s, i_n, i_e_d0, i_e_c0, i_e_i0, i_alpha, i_beta, &
                            i_m_R, i_m_T, i_R, i_beta_r, i_chi
   use umat_status, only: branch_plain, branch_loading
@@ -88,7 +88,7 @@ contains
     real(wp) :: sine, steepness
     steepness = sqrt(3.0_wp) / (2.0_wp * sqrt(2.0_wp)) ! a = steepness (3/sine - 1)
     sine = 3.0_wp * steepness / (a + steepness)
-    slope = -3.0_wp * steepness / sine**2 * sqrt(1.0_wp - sine**2) * acos(-1.0_wp) / 180.0_wp
+    slope = -3.0_wp * steepness / sine**2 * sqrt(1.0_wp - sine**2) * pi / 180.0_wp
   end function slope_of_a
 
   !> Derivatives of the logarithm of the part of f_b that does not depend on the state; Eq. (8).
