@@ -33,7 +33,7 @@ static const char doc[] =
     "Examples:\n"
     "  hypofab directions contacts.txt.gz > directions.csv\n"
     "  hypofab directions contacts.txt.gz --bins 400 --json > directions.json\n"
-    "  python -m hypofab fabric directions.json\n"
+    "  hypofab plot directions.json\n"
     "\n"
     "docs/fabric_figures.md shows the figures.";
 

@@ -30,6 +30,7 @@ static const struct command {
     {"merge", cmd_merge, "fabric of a sample from the sums of its parts"},
     {"delta", cmd_delta, "initial intergranular strain from a contact list or a fabric tensor"},
     {"plot", cmd_python, "figures as PNG and PDF, written beside the results"},
+    {"secants", cmd_python, "table of secant stiffnesses beside those of paper 000, Table 4"},
     {"sweep", cmd_python, "many runs of a deck: grids, tables, Monte Carlo, Sobol indices"},
     {"calibration", cmd_python, "figures of a calibration: tests, residuals, correlations"},
     {"laboratory", cmd_python, "laboratory tests computed beside what was measured: a report"},

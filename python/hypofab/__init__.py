@@ -1,6 +1,6 @@
 """From grain contacts to finite elements: hypoplasticity of sand with intergranular strain.
 
-The names below need the compiled library (`pip install .`); figures, tables and `python -m hypofab` do not.
+Most names below need the compiled library (`pip install .`); results and figures of files do not.
 docs/python.md shows how they are used; __init__.pyi names them to type checkers.
 """
 
@@ -9,8 +9,10 @@ from importlib import import_module
 from hypofab.errors import HypofabError, InputError, InternalError, PhysicalError, Status
 
 _HOMES = {
-    "calibration.calibrate": ("Calibration", "CalibrationResult", "FreeParameter", "LabComparison", "calibrate"),
-    "decks.study": ("Step", "Study", "Test", "TestResult", "element_test", "run"),
+    "calibration.calibrate": ("Calibration", "calibrate"),
+    "decks.steps": ("Step", "Test"),
+    "decks.stiffness": ("FitOfC", "Stiffness"),
+    "decks.study": ("Study", "element_test", "run"),
     "fabric.changes": (
         *("Directions", "Estimate", "FabricChange", "FabricResponse", "MechanismFit", "Rose"),
         *("changes", "directions", "fit_fabric_response"),
@@ -19,21 +21,21 @@ _HOMES = {
         *("Fabric", "InitialDelta", "Significance", "fabric_of_file", "fabric_of_normals", "fabric_of_tensor"),
         "weights",
     ),
+    "fabric.uncertainty": ("Interval", "Uncertainty", "bootstrap"),
+    "figures.memory": ("plot", "plot_directions", "plot_envelopes", "plot_fabrics"),
     "library": ("version",),
     "model.materials": ("Material", "Parameter", "Sand", "parameters", "sands"),
     "model.points": (
         *("Branch", "Increment", "LinearParts", "Points", "Rate", "State"),
         *("linear_parts", "rate", "update", "update_many"),
     ),
-    "figures.memory": ("plot", "plot_directions", "plot_envelopes", "plot_fabrics"),
-    "model.probing": (
-        *("Ellipsoid", "Probes", "Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability"),
-        "triangles",
-    ),
+    "model.probing": ("Stability", "Subspace", "envelope", "fit_ellipsoid", "probe", "state_stability", "triangles"),
+    "results.calibration": ("CalibrationResult", "FreeParameter", "LabComparison"),
+    "results.element_tests": ("TestResult",),
+    "results.probes": ("Ellipsoid", "Probes"),
     "sampling": ("quasi_random",),
     "sweeps.sobol_indices": ("SobolIndices", "sobol", "sobol_indices"),
     "sweeps.sweep": ("SweepResult", "read_sweep", "sweep"),
-    "fabric.uncertainty": ("FitOfC", "Interval", "Stiffness", "Uncertainty", "bootstrap"),
     "tensors": ("COMPONENTS", "components", "matrix"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}

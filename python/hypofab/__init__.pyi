@@ -1,14 +1,12 @@
 """The public names, for type checkers; __init__.py loads them when they are asked for."""
 
 from hypofab.calibration.calibrate import Calibration as Calibration
-from hypofab.calibration.calibrate import CalibrationResult as CalibrationResult
-from hypofab.calibration.calibrate import FreeParameter as FreeParameter
-from hypofab.calibration.calibrate import LabComparison as LabComparison
 from hypofab.calibration.calibrate import calibrate as calibrate
-from hypofab.decks.study import Step as Step
+from hypofab.decks.steps import Step as Step
+from hypofab.decks.steps import Test as Test
+from hypofab.decks.stiffness import FitOfC as FitOfC
+from hypofab.decks.stiffness import Stiffness as Stiffness
 from hypofab.decks.study import Study as Study
-from hypofab.decks.study import Test as Test
-from hypofab.decks.study import TestResult as TestResult
 from hypofab.decks.study import element_test as element_test
 from hypofab.decks.study import run as run
 from hypofab.errors import HypofabError as HypofabError
@@ -32,9 +30,7 @@ from hypofab.fabric.samples import fabric_of_file as fabric_of_file
 from hypofab.fabric.samples import fabric_of_normals as fabric_of_normals
 from hypofab.fabric.samples import fabric_of_tensor as fabric_of_tensor
 from hypofab.fabric.samples import weights as weights
-from hypofab.fabric.uncertainty import FitOfC as FitOfC
 from hypofab.fabric.uncertainty import Interval as Interval
-from hypofab.fabric.uncertainty import Stiffness as Stiffness
 from hypofab.fabric.uncertainty import Uncertainty as Uncertainty
 from hypofab.fabric.uncertainty import bootstrap as bootstrap
 from hypofab.figures.memory import plot as plot
@@ -57,8 +53,6 @@ from hypofab.model.points import linear_parts as linear_parts
 from hypofab.model.points import rate as rate
 from hypofab.model.points import update as update
 from hypofab.model.points import update_many as update_many
-from hypofab.model.probing import Ellipsoid as Ellipsoid
-from hypofab.model.probing import Probes as Probes
 from hypofab.model.probing import Stability as Stability
 from hypofab.model.probing import Subspace as Subspace
 from hypofab.model.probing import envelope as envelope
@@ -66,6 +60,12 @@ from hypofab.model.probing import fit_ellipsoid as fit_ellipsoid
 from hypofab.model.probing import probe as probe
 from hypofab.model.probing import state_stability as state_stability
 from hypofab.model.probing import triangles as triangles
+from hypofab.results.calibration import CalibrationResult as CalibrationResult
+from hypofab.results.calibration import FreeParameter as FreeParameter
+from hypofab.results.calibration import LabComparison as LabComparison
+from hypofab.results.element_tests import TestResult as TestResult
+from hypofab.results.probes import Ellipsoid as Ellipsoid
+from hypofab.results.probes import Probes as Probes
 from hypofab.sampling import quasi_random as quasi_random
 from hypofab.sweeps.sobol_indices import SobolIndices as SobolIndices
 from hypofab.sweeps.sobol_indices import sobol as sobol

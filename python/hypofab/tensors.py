@@ -53,6 +53,16 @@ def matrix(tensor: ArrayLike) -> Array:
     return np.asarray(tensor, dtype=np.float64)[..., _PLACES]
 
 
+def contraction(a: ArrayLike, b: ArrayLike) -> Array:
+    """Double contraction a:b of six components; of (..., 6) an array."""
+    return np.sum(_WEIGHTS * np.asarray(a) * np.asarray(b), axis=-1)
+
+
+def coordinates(basis: Array, tensors: ArrayLike) -> Array:
+    """Coordinates of tensors (..., 6) in the space of an orthonormal basis (dimension, 6): shape (..., dimension)."""
+    return (_WEIGHTS * np.asarray(tensors)) @ basis.T
+
+
 def norm(tensor: ArrayLike) -> Array:
     """Frobenius norm of six components, |X| = sqrt(X:X); of (..., 6) an array."""
     return np.sqrt(np.sum(_WEIGHTS * np.asarray(tensor, dtype=np.float64) ** 2, axis=-1))

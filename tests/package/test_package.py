@@ -15,8 +15,8 @@ import pytest
 
 import hypofab
 from hypofab import _core
-from hypofab.__main__ import parser
 from hypofab.cli.launch import packaged_program
+from hypofab.cli.commands import COMMANDS
 
 PACKAGE = Path(hypofab.__file__).parent
 COMMAND = Path(sys.executable).with_name("hypofab")
@@ -109,22 +109,11 @@ def test_the_help_of_the_program_lists_the_commands_of_both_once() -> None:
     listed = re.findall(r"^  ([a-z][a-z-]*) +(.+)$", run(packaged_program(), "--help"), flags=re.MULTILINE)
     assert run(COMMAND, "--help") == run(packaged_program(), "--help")
     assert len(dict(listed)) == len(listed)
-    (commands,) = [action for action in parser()._actions if action.dest == "command"]
-    purposes = {one.dest: one.help for one in commands._choices_actions if one.dest not in ("fabric", "stiffness")}
-    assert purposes.items() <= dict(listed).items()
-    assert set(purposes) == set(re.findall(r'^    \{"([a-z-]+)", cmd_python,', MAIN.read_text(), flags=re.MULTILINE))
+    assert COMMANDS.items() <= dict(listed).items()
+    assert set(COMMANDS) == set(re.findall(r'^    \{"([a-z-]+)", cmd_python,', MAIN.read_text(), flags=re.MULTILINE))
 
 
 def test_shells_complete_commands_of_python() -> None:
     script = MAIN.parent / "completion" / "hypofab.bash"
     line = 'source "$1"; COMP_WORDS=("$2" sw); COMP_CWORD=1; _hypofab; echo "${COMPREPLY[@]}"'
     assert run("bash", "-c", line, "bash", script, COMMAND) == "sweep\n"
-
-
-def test_modules_that_call_the_program_find_the_installed_one(examples: Path) -> None:
-    code = (
-        "from hypofab.fabric.contacts import delta; from hypofab.__main__ import default_program; import sys\n"
-        "print(delta(sys.argv[1], R=1e-4, c=0.05)['delta'], default_program())"
-    )
-    printed = run(sys.executable, "-c", code, examples / "data" / "iso_3000_contacts.txt.gz")
-    assert str(packaged_program()) in printed

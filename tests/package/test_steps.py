@@ -3,7 +3,7 @@
 import pytest
 
 import hypofab
-from hypofab.decks import Step
+from hypofab.decks.steps import Step
 
 START = hypofab.State.isotropic(100, 0.7)
 

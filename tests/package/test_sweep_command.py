@@ -13,7 +13,7 @@ from sweep_models import INPUTS, OUTPUTS, deck, fragile
 
 import hypofab
 from hypofab.__main__ import main
-from hypofab.decks.study import deck_text
+from hypofab.decks.steps import deck_text
 
 SOBOL = {"kind": "saltelli", "base": 8}
 

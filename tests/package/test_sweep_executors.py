@@ -13,7 +13,7 @@ import pytest
 from sweep_models import INPUTS, OUTPUTS, deck, fragile
 
 import hypofab
-from hypofab.decks.study import deck_text
+from hypofab.decks.steps import deck_text
 
 DESIGN = {"kind": "sobol", "runs": 30}
 

@@ -9,8 +9,9 @@ import pytest
 from conftest import write_csv, write_summary
 
 from hypofab.__main__ import main
-from hypofab.figures.cycles import accumulation, figure, read_accumulations, table
+from hypofab.figures.cycles import figure
 from hypofab.results import ResultError
+from hypofab.results.cycles import accumulation, read_accumulations, table
 
 PROGRAM = os.environ.get("HYPOFAB_PROGRAM")
 

@@ -8,17 +8,16 @@ import numpy as np
 import pytest
 
 from hypofab.__main__ import main
-from hypofab.figures.dilatancy import (
+from hypofab.figures.dilatancy import critical_states, stress_dilatancy
+from hypofab.results import ResultError
+from hypofab.results.drained import (
     DrainedTest,
     critical_ratio,
-    critical_states,
     critical_void_ratio,
     dilatancy_points,
     read_drained,
     rowe,
-    stress_dilatancy,
 )
-from hypofab.results import ResultError
 
 PROGRAM = os.environ.get("HYPOFAB_PROGRAM")
 PARAMETERS = {"phi_c": 30.0, "h_s": 1e6, "n": 0.25, "e_c0": 0.95}

@@ -118,7 +118,7 @@ def test_envelopes_differ_by_the_direction_of_delta(envelopes: Path) -> None:
 
 def test_figures_of_the_demonstration(paper_run: Path, dem_run: Path, envelopes: Path) -> None:
     directories = [str(directory) for directory in (paper_run, dem_run, envelopes)]
-    assert main(["stiffness", *directories[:2]]) == 0
+    assert main(["secants", *directories[:2]]) == 0
     assert main(["plot", "--zoom", "0.1", *directories]) == 0
     for directory in (paper_run, dem_run):
         assert (directory / "stress_strain.png").stat().st_size > 10_000

@@ -11,7 +11,7 @@ from hypofab.figures import changes as change_figures
 from hypofab.figures import fabric as fabric_figures
 from hypofab.figures import uncertainty as uncertainty_figures
 from hypofab.results import ResultError
-from hypofab.results.fabric import Result, read_json, read_series, tensor
+from hypofab.results.fabric import Result, read_results, read_series, tensor
 
 FABRIC = [-0.07, 0.14, -0.07, 0.01, 0.0, 0.02]
 
@@ -262,7 +262,7 @@ def test_command_draws_what_the_files_have(tmp_path: Path, capsys: pytest.Captur
     write_series(tmp_path / "cycles.csv")
     arguments = [str(tmp_path / f"{name}.json") for name in files] + [f"cyclic={tmp_path / 'cycles.csv'}"]
     figures = tmp_path / "new" / "figures"
-    assert main(["fabric", *arguments, "-o", str(figures)]) == 0
+    assert main(["plot", *arguments, "-o", str(figures)]) == 0
     named = capsys.readouterr().out.split()
     stems = ("fabric_surface", "sphere_sphere", "disks_roses", "probes_rates", "probes_lost_gained", "series")
     assert named == [str(figures / f"{stem}.{suffix}") for stem in stems for suffix in ("png", "pdf")]
@@ -274,9 +274,9 @@ def test_other_files_are_refused(tmp_path: Path, text: str, capsys: pytest.Captu
     path = tmp_path / "other.json"
     path.write_text(text)
     with pytest.raises(ResultError, match=r"other\.json"):
-        read_json(path)
-    assert main(["fabric", str(path)]) == 2
-    assert main(["fabric", str(path), "-o", str(path)]) == 2
+        read_results(path)
+    assert main(["plot", str(path)]) == 2
+    assert main(["plot", str(path), "-o", str(path)]) == 2
     assert "not a folder" in capsys.readouterr().err
-    assert main(["fabric", str(tmp_path / "missing.json")]) == 2
+    assert main(["plot", str(tmp_path / "missing.json")]) == 2
     assert "missing.json" in capsys.readouterr().err

@@ -9,7 +9,7 @@ import pytest
 from hypofab.__main__ import main
 from hypofab.figures import stress_path, stress_strain, volumetric
 from hypofab.figures.paths import axial_component, compression, limiting_void_ratio, loops
-from hypofab.results import ResultError, Run, read_run
+from hypofab.results import COMPONENTS, ResultError, Run, read_run
 from hypofab.results.measured import quantity, read_measured
 
 SAND = {"h_s": 1e6, "n": 0.25, "e_d0": 0.55, "e_c0": 0.95, "e_i0": 1.05, "p_t": 0.0, "phi_c": 33.0}
@@ -60,7 +60,11 @@ def test_loops_are_drawn_over_the_axial_strain_in_compression(
     stress, strain = np.full_like(test.stress, sign * 50.0), np.zeros_like(test.strain)
     strain[:, axis] = sign * np.linspace(0, 0.01, len(strain))
     stress[:, axis] += sign * 1e4 * np.linspace(0, 0.01, len(strain))
-    test = replace(test, stress=stress, strain=strain, q_signed=1e4 * np.linspace(0, 0.01, len(strain)))
+    rows = test.rows.copy()
+    for index, component in enumerate(COMPONENTS):
+        rows[f"sig_{component}"], rows[f"eps_{component}"] = stress[:, index], strain[:, index]
+    rows["q_signed"] = 1e4 * np.linspace(0, 0.01, len(strain))
+    test = replace(test, rows=rows)
     assert axial_component(test) == axis
     data = {"lab": {"eps_1": np.array([0.0, sign * 0.02]), "q": np.array([0.0, 200.0])}}
     drawn = {line.get_label(): line for line in loops(replace(run, tests=(test,)), measured=data).axes[0].lines}

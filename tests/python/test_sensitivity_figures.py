@@ -7,8 +7,9 @@ import pytest
 from conftest import columns_of_test, write_csv, write_summary
 
 from hypofab.__main__ import main
-from hypofab.figures.sensitivities import curves, read_sensitivities
+from hypofab.figures.sensitivities import curves
 from hypofab.results import ResultError
+from hypofab.results.sensitivities import read_sensitivities
 
 MATERIAL = {"phi_c": 30.0, "h_s": 1e6, "p_t": 0.0, "n": 0.3, "e_d0": 0.5, "e_c0": 0.9, "e_i0": 1.1}
 NUMBERS = ("phi_c", "h_s", "p_t")

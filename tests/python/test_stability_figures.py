@@ -7,7 +7,8 @@ import pytest
 from conftest import columns_of_test, write_csv, write_summary
 
 from hypofab.__main__ import main
-from hypofab.figures.stability import PANELS, figure, read_stability
+from hypofab.figures.stability import figure
+from hypofab.results.stability import PANELS, read_stability
 
 
 @pytest.fixture

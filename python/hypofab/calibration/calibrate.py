@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypofab.decks.study import deck_text
+from hypofab.decks.steps import deck_text
 from hypofab.errors import InputError, Status
 from hypofab.library import check, core, interruptible, text
 from hypofab.results.calibration import CalibrationResult, FreeParameter, LabComparison

@@ -1,23 +1,38 @@
-"""`hypofab laboratory DIR -o OUT`: run the program on every test of a catalogue and compare."""
+"""`hypofab laboratory DIR -o OUT`: compute every test of a catalogue and compare."""
 
+import argparse
 import csv
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from hypofab.figures import dilatancy
+from hypofab.figures import Figure, dilatancy
 from hypofab.figures import laboratory as figures
 from hypofab.laboratory.catalogue import LabTest, load_catalogue
-from hypofab.laboratory.decks import STARTS, Computed, Variant, run_deck, sand_parameters, starts_of, write_deck
+from hypofab.laboratory.decks import run_deck, write_deck
 from hypofab.laboratory.measures import Agreement, agreement, compare, half_cycles, interpolate
 from hypofab.laboratory.series import Series, read_measured
 from hypofab.laboratory.text import write_markdown
-from hypofab.results.element_tests import ResultError
+from hypofab.laboratory.variants import STARTS, Computed, Variant, starts_of
+from hypofab.model.materials import sands
+from hypofab.results.drained import DrainedTest
+from hypofab.results.tables import ResultError
 
 FIELDS = ("material", "test", "kind", "sand", "start", "void_ratio", "void_ratio_fitted", "quantity", "rows")
 FIELDS += ("r2", "rms", "largest", "covered", "status")
 """Columns of errors.csv."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where the tests are and where the report goes."""
+    parser.add_argument("directory", metavar="DIR", type=Path, help="folder with the files of the tests")
+    parser.add_argument("-o", "--output", metavar="OUT", type=Path, required=True, help="folder for the report")
+    parser.add_argument("--catalogue", metavar="FILE", type=Path, help="tests and their files (default: built in)")
+
+
+def run(options: argparse.Namespace) -> None:
+    """Write the report and print where it is."""
+    print(report(options.directory, options.output, options.catalogue))
 
 
 def _misfit(test: LabTest, measured: Series, run: Computed) -> float:
@@ -31,7 +46,7 @@ def _misfit(test: LabTest, measured: Series, run: Computed) -> float:
     return total
 
 
-def _void_ratio(program: str, test: LabTest, start: str, measured: Series, out: Path) -> float:
+def _void_ratio(test: LabTest, start: str, measured: Series, out: Path) -> float:
     """The void ratio at the start: as known, or the one of a range that fits best (to 0.002)."""
     if test.void_ratio is not None:
         return test.void_ratio
@@ -46,7 +61,7 @@ def _void_ratio(program: str, test: LabTest, start: str, measured: Series, out: 
         variants = [Variant(test, test.sands[0], start, round(float(value), 4)) for value in np.unique(values)]
         deck = out / f"{test.name}-fit.yaml"
         write_deck(variants, measured, deck)
-        runs = run_deck(program, deck, out / f"{test.name}-fit", variants)
+        runs = run_deck(deck, out / f"{test.name}-fit", variants)
         misfits = [_misfit(test, measured, run) for run in runs]
         # Equal misfits (whole numbers of cycles): the middle of them.
         equal = [run.variant.void_ratio for run, misfit in zip(runs, misfits, strict=True) if misfit == min(misfits)]
@@ -54,10 +69,10 @@ def _void_ratio(program: str, test: LabTest, start: str, measured: Series, out: 
     return best
 
 
-def compute(program: str, test: LabTest, measured: Series, with_memory: set[str], out: Path) -> list[Computed]:
+def compute(test: LabTest, measured: Series, with_memory: set[str], out: Path) -> list[Computed]:
     """Every variant of a test: each sand, and each start of delta where the sand has it."""
     first = next(iter(STARTS)) if test.sands[0] in with_memory else "none"
-    void_ratio = _void_ratio(program, test, first, measured, out)
+    void_ratio = _void_ratio(test, first, measured, out)
     variants = [
         Variant(test, sand, start, void_ratio)
         for sand in test.sands
@@ -65,7 +80,7 @@ def compute(program: str, test: LabTest, measured: Series, with_memory: set[str]
     ]
     deck = out / f"{test.name}.yaml"
     write_deck(variants, measured, deck)
-    return run_deck(program, deck, out / test.name, variants)
+    return run_deck(deck, out / test.name, variants)
 
 
 def _row(test: LabTest, run: Computed, found: Agreement) -> dict:
@@ -88,16 +103,16 @@ def _row(test: LabTest, run: Computed, found: Agreement) -> dict:
     }
 
 
-def save(figure: Figure, path: Path) -> None:
+def _save(figure: Figure, path: Path) -> None:
     """Write a figure."""
     figure.savefig(path, dpi=160)
 
 
-def drained(name: str, rows: Series, void_ratio: float, p_0: float) -> dilatancy.DrainedTest:
+def drained(name: str, rows: Series, void_ratio: float, p_0: float) -> DrainedTest:
     """A drained compression test; what the file does not hold follows from the rest."""
     p = rows["p"] if "p" in rows else p_0 + rows["q"] / 3
     e = rows["e"] if "e" in rows else (1 + void_ratio) * np.exp(-rows["eps_v"]) - 1
-    return dilatancy.DrainedTest(name, rows["eps1"], rows["eps_v"], rows["q"], p, e)
+    return DrainedTest(name, rows["eps1"], rows["eps_v"], rows["q"], p, e)
 
 
 def _draw_dilatancy(
@@ -113,11 +128,11 @@ def _draw_dilatancy(
         computed.append(drained(test.name, run.rows, run.variant.void_ratio, p_0))
     groups = {"measured": measured, f"computed ({sand})": computed}
     stem = material.lower().replace(" ", "_")
-    save(dilatancy.stress_dilatancy(groups, parameters[sand]["phi_c"]), out / f"{stem}_stress_dilatancy.png")
-    save(dilatancy.critical_states(groups, parameters[sand]), out / f"{stem}_critical_states.png")
+    _save(dilatancy.stress_dilatancy(groups, parameters[sand]["phi_c"]), out / f"{stem}_stress_dilatancy.png")
+    _save(dilatancy.critical_states(groups, parameters[sand]), out / f"{stem}_critical_states.png")
 
 
-def report(directory: Path, out: Path, program: str, catalogue: Path | None = None) -> Path:
+def report(directory: Path, out: Path, catalogue: Path | None = None) -> Path:
     """Write OUT/report.md, errors.csv, overlays, figures, decks and results; the path of the report.
 
     Tests whose file is not there are named in the report and left out.
@@ -126,23 +141,23 @@ def report(directory: Path, out: Path, program: str, catalogue: Path | None = No
     present = [test for test in tests if (directory / test.file).exists()]
     if not present:
         raise ResultError(f"{directory}: none of the {len(tests)} files of the catalogue, e.g. {tests[0].file}")
-    parameters = sand_parameters(program)
-    with_memory = {name for name, values in parameters.items() if values["m_R"] > 0.5}
+    parameters = {name: sand.material for name, sand in sands().items()}
+    with_memory = {name for name, material in parameters.items() if material.has_memory}
     out.mkdir(parents=True, exist_ok=True)
     rows: list[dict] = []
     by_material: dict[str, list[tuple[LabTest, Series, list[Computed]]]] = {}
     for test in present:
         measured = read_measured(test, directory)
-        runs = compute(program, test, measured, with_memory, out)
+        runs = compute(test, measured, with_memory, out)
         rows += [_row(test, run, found) for run in runs for found in compare(test, measured, run.rows)]
-        save(figures.overlay(test, measured, runs), out / f"{test.name}.png")
+        _save(figures.overlay(test, measured, runs), out / f"{test.name}.png")
         if test.kind == "drained_compression":
             by_material.setdefault(test.material, []).append((test, measured, runs))
     with (out / "errors.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, FIELDS)
         writer.writeheader()
         writer.writerows(rows)
-    save(figures.errors([row for row in rows if row["quantity"] != "cycles"]), out / "errors.png")
+    _save(figures.errors([row for row in rows if row["quantity"] != "cycles"]), out / "errors.png")
     for material, drained_tests in by_material.items():
         _draw_dilatancy(material, drained_tests, parameters, out)
     missing = [test.file for test in tests if test not in present]

@@ -4,136 +4,23 @@ A mapping has the keys of a deck file (docs/deck.md). Objects become such a mapp
 program's: the same bits as `hypofab run`. Rows are in the sign and unit of the deck; objects are tension positive.
 """
 
-import json
 import os
 import weakref
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hypofab.errors import HypofabError, InputError, PhysicalError, Status
-from hypofab.fabric.uncertainty import FitOfC, Stiffness, stiffnesses, units_and_replicates
+from hypofab.decks.steps import Step, Test, deck_of, deck_text
+from hypofab.decks.stiffness import FitOfC, Stiffness, stiffnesses
+from hypofab.errors import InputError, Status
+from hypofab.fabric.uncertainty import units_and_replicates
 from hypofab.library import check, core, interruptible, last_message, text
 from hypofab.model.materials import Material
 from hypofab.model.points import State
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-Mark = tuple[str, float] | Mapping[str, Any]
-"""A quantity and a value: ("eps_zz", -0.1), or a mapping as in decks."""
-
-
-class Step:
-    """A step of an element test. Arguments are the keys of a step in decks; None: not given."""
-
-    def __init__(
-        self,
-        *,
-        name: str | None = None,
-        preset: str | None = None,
-        control: Mapping[str, Any] | None = None,
-        conditions: Sequence[Mapping[str, Any]] | None = None,
-        table: Mapping[str, Any] | None = None,
-        pore_water: Mapping[str, Any] | None = None,
-        until: Mark | None = None,
-        stop: Sequence[Mapping[str, Any]] | None = None,
-        cycle: Mapping[str, Any] | None = None,
-        rows: int | None = None,
-        every: Mark | None = None,
-        max_time: float | None = None,
-        more: Mapping[str, Any] | None = None,
-        **parameters: float | str | Sequence[float] | None,
-    ) -> None:
-        """preset: a named test (hypofab presets), its parameters (axis, rate, lode, ...) as further arguments; or
-        control, conditions or table. more: further keys.
-        """
-        given = locals()
-        keys = [key for key in given if key not in ("self", "more", "parameters")]
-        given = {key: given[key] for key in keys} | parameters
-        self._given = {key: value for key, value in given.items() if value is not None} | dict(more or {})
-        for key in ("until", "every"):
-            if isinstance(self._given.get(key), tuple):
-                quantity, value = self._given[key]
-                self._given[key] = {"quantity": quantity, "value": value}
-
-    def __repr__(self) -> str:
-        """As it is written."""
-        return f"Step({', '.join(f'{key}={value!r}' for key, value in self._given.items())})"
-
-    def __eq__(self, other: object) -> bool:
-        """With the same keys and values."""
-        return isinstance(other, Step) and self._given == other._given
-
-    __hash__ = None
-
-    def mapping(self) -> dict[str, Any]:
-        """The step as decks have it."""
-        return dict(self._given)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Test:
-    """An element test: a state of a material, and the steps it goes through."""
-
-    material: Material
-    state: State
-    steps: Sequence[Step | Mapping[str, Any]]
-    name: str = "test"
-    integrator: str | None = None
-    """erk (default), cvode or ida"""
-    tolerance: float | None = None
-    """relative tolerance of the integrator"""
-    stability: bool = False
-    """rows with the measures of stability too"""
-    sensitivities: Sequence[str] = ()
-    """numbers to differentiate the results with respect to: parameters, "void_ratio", "p", "sig_xx", ..."""
-
-    __test__ = False  # not one of pytest's
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TestResult:
-    """What a test led to: one row for each row of its result file, by the same names."""
-
-    name: str
-    rows: NDArray[np.void]
-    """structured: rows["eps_zz"], rows["q"], ...; "step" counts from 1"""
-    status: Status
-    """OK, or the physical reason why the test stopped early; the rows up to there are here"""
-    message: str
-    stopped_in: int | None
-    """the step it stopped in, from 1"""
-    integrator_steps: int
-    evaluations: int
-    unit: str
-    sign: int
-    """1: tension is positive, -1: compression is"""
-    material: Material
-    sensitivities: Mapping[str, Mapping[str, NDArray[np.float64]]] = field(default_factory=dict)
-    """derivatives of the rows: sensitivities["h_s"]["q"] is dq/dh_s; empty unless the test asks for them"""
-
-    __test__ = False
-
-    def __getitem__(self, quantity: str) -> NDArray:
-        """A column of the rows."""
-        return self.rows[quantity]
-
-    def check(self) -> "TestResult":
-        """Raise PhysicalError if the test stopped early; the result itself otherwise."""
-        if self.status:
-            raise PhysicalError(f"test '{self.name}' stopped early: {self.message}", self.status)
-        return self
-
-    def plot(self, kind: str = "stress_strain", **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
-        """A figure of this test; kinds, several tests in one figure, and options: hypofab.plot."""
-        from hypofab.figures.memory import plot  # matplotlib, only where it is wanted
-
-        return plot(self, kind, **options)
+from hypofab.results.element_tests import WHOLE, TestResult
 
 
 class Study:
@@ -258,9 +145,9 @@ class Study:
             derivatives = self._derivatives(index, int(rows[0]), varied, count, width) if varied else {}
         finally:
             core.rows_free(int(rows[0]))
-        return TestResult(
-            name=self.tests[index],
-            rows=_structured(numbers),
+        return TestResult.of_columns(
+            self.tests[index],
+            _columns_of(numbers),
             status=Status(status),
             message=message,
             stopped_in=step + 1 if status else None,
@@ -276,7 +163,7 @@ class Study:
         self, index: int, rows: int, varied: int, count: int, width: int
     ) -> dict[str, dict[str, NDArray[np.float64]]]:
         """By the number varied, then by quantity; those of stability, from work2 on, have none."""
-        quantities = [name for name in _columns(width) if name not in ("step", "event")]
+        quantities = [name for name in _columns(width) if name not in WHOLE]
         if "work2" in quantities:
             quantities = quantities[: quantities.index("work2")]
         values = core.derivatives_take(rows, varied, len(quantities), count)
@@ -317,45 +204,6 @@ def element_test(
     return Study(test).run_test(test.name)
 
 
-def deck_of(tests: Iterable[Test]) -> dict[str, Any]:
-    """The deck of tests that are objects; stresses are in whatever unit h_s has."""
-    deck: dict[str, list] = {"materials": [], "states": [], "tests": []}
-    for index, test in enumerate(tests):
-        place = f"{index + 1}"
-        material = {"name": place, "parameters": test.material.parameters()}
-        if test.material.m_R <= 0.5:
-            material["intergranular"] = False
-        delta = {"components": test.state.delta} if test.state.delta.any() else {"zero": True}
-        state = {"name": place, "material": place, "stress": test.state.stress, "void_ratio": test.state.void_ratio}
-        options = {"integrator": test.integrator, "tolerance": test.tolerance, "stability": test.stability or None}
-        options["sensitivities"] = list(test.sensitivities) or None
-        deck["materials"].append(material)
-        deck["states"].append(state | {"delta": delta})
-        deck["tests"].append(
-            {"name": test.name, "state": place}
-            | {key: value for key, value in options.items() if value is not None}
-            | {"steps": [step.mapping() if isinstance(step, Step) else dict(step) for step in test.steps]}
-        )
-    return deck
-
-
-def deck_text(deck: Mapping[str, Any]) -> str:
-    """A mapping as the text of a deck, every number with all its digits. JSON is YAML."""
-
-    def plain(value: Any) -> Any:  # noqa: ANN401 - what JSON does not know
-        if isinstance(value, np.ndarray | np.generic):
-            return value.tolist()
-        if isinstance(value, os.PathLike):
-            return os.fspath(value)
-        if isinstance(value, Mapping):
-            return dict(value)
-        if isinstance(value, Step):
-            return value.mapping()
-        raise InputError(f"a deck holds no {type(value).__name__}: {value!r}", Status.BAD_ARGUMENT)
-
-    return json.dumps(deck, indent=1, ensure_ascii=False, default=plain)
-
-
 @cache
 def _columns(width: int) -> tuple[str, ...]:
     """Names of the columns of `width` numbers, of which the last are step and event, in the order of result files."""
@@ -363,14 +211,9 @@ def _columns(width: int) -> tuple[str, ...]:
     return (names[0], "step", *names[1:], "event")
 
 
-def _structured(numbers: NDArray[np.float64]) -> NDArray[np.void]:
+def _columns_of(numbers: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Rows of the extension by the names of result files, in their order."""
     names = _columns(numbers.shape[1])
-    whole = ("step", "event")
-    rows = np.empty(len(numbers), dtype=[(name, np.int64 if name in whole else np.float64) for name in names])
-    quantities = [name for name in names if name not in whole]
-    for column, name in enumerate([*quantities, *whole]):
-        rows[name] = numbers[:, column]
-    return rows
-
-
-__all__ = ["HypofabError", "Mark", "Step", "Study", "Test", "TestResult", "deck_of", "deck_text", "element_test", "run"]
+    quantities = [name for name in names if name not in WHOLE]
+    found = dict(zip([*quantities, *WHOLE], numbers.T, strict=True))
+    return {name: found[name] for name in names}

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from hypofab.drawing import draw
 from hypofab.errors import InputError, Status
-from hypofab.fabric.samples import reading
+from hypofab.fabric.samples import Fabric, fabric_of_file, reading
 from hypofab.library import check, core
 from hypofab.tensors import Array, read_only
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from hypofab.drawing import Figure
 
 MECHANISMS = ("loss", "gain", "reorientation")
 
@@ -179,20 +180,16 @@ class Directions:
     """mean of a bin's contacts; NaN without forces"""
     shear_force: Array
     """(bins, 3) mean"""
-    fabric: Any
+    fabric: Fabric
     """fabric of the same contacts"""
 
     def plot(self, label: str = "sample") -> "Figure":
         """The sphere seen from +z with the density of second order, or in the plane roses."""
-        from hypofab.figures.memory import plot_directions  # matplotlib, only where it is wanted
-
-        return plot_directions(self, label)
+        return draw("memory.plot_directions", self, label)
 
 
 def directions(path: str | os.PathLike, *, bins: int = 0, **options: Any) -> Directions:  # noqa: ANN401
     """Histogram of contact directions; bins: about as many (0: 100, in the plane 18); options as fabric_of_file."""
-    from hypofab.fabric.samples import fabric_of_file
-
     room = 4 * (int(np.sqrt(max(bins, 100) / 4)) + 2) ** 2
     status, count, numbers = core.contact_directions(os.fsencode(path), *reading(**options), bins, room)
     check(status)

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.lib.format import open_memmap
 
+from hypofab.results.tables import ResultError
+
 BLOCK = 1 << 18
 """Rows moved at a time."""
 
@@ -35,7 +37,7 @@ WHOLE = ("id1", "id2", "cell_x", "cell_y", "cell_z")
 """Columns of whole numbers, whatever kind of number the file holds."""
 
 
-class ContactFileError(Exception):
+class ContactFileError(ResultError):
     """A contact file is not what it should be; the message says what was expected."""
 
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from hypofab.fabric.contact_files import convert
 from hypofab.papers.program import run, run_json
-from hypofab.results.element_tests import Array, ResultError
+from hypofab.results.tables import ResultError
+from hypofab.tensors import Array
 
 Contacts = str | Path | Mapping[str, Array]
 """A contact file, or arrays with one row per contact (see COLUMNS)."""

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from hypofab.drawing import draw
 from hypofab.errors import InputError, Status
 from hypofab.library import check, core, text
 from hypofab.tensors import Array, components, read_only
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from hypofab.drawing import Figure
 
 _TREATMENTS = ("refuse", "skip", "keep")
 _WALLS = (None, "out", "in")
@@ -59,9 +60,7 @@ class Fabric:
 
     def plot(self, label: str = "sample", *, up: str = "z") -> "Figure":
         """Surface of the density of contact normals; several samples in one figure: hypofab.plot_fabrics."""
-        from hypofab.figures.memory import plot_fabrics  # matplotlib, only where it is wanted
-
-        return plot_fabrics({label: self}, up=up)
+        return draw("memory.plot_fabrics", {label: self}, up=up)
 
     def rotated(self, rotation: ArrayLike) -> "Fabric":
         """In other axes: row i of the rotation is the new axis i in the old ones."""

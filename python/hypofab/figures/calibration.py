@@ -8,8 +8,8 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hypofab.figures.element_tests import COLUMN, STYLE, line_style
 from hypofab.figures.laboratory import LABELS, MEASURED
+from hypofab.figures.style import COLUMN, STYLE, line_style
 from hypofab.results.calibration import CalibrationResult, Columns, LabComparison, read_calibration
 
 _PANELS = {

@@ -7,10 +7,11 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from hypofab.figures.element_tests import INCH, STYLE
 from hypofab.figures.fabric import BAR, FIT, limit_radius
-from hypofab.results.element_tests import Array, ResultError
+from hypofab.figures.style import INCH, STYLE
 from hypofab.results.fabric import MECHANISMS, Result
+from hypofab.results.tables import ResultError
+from hypofab.tensors import Array
 
 SYMBOLS = {"dZ": r"$\Delta Z^*$", "dA": r"$\Delta A^*$"}
 NAMES = {"loss": "contact loss", "gain": "contact gain", "reorientation": "reorientation"}

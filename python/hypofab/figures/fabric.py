@@ -16,9 +16,10 @@ from matplotlib.patheffects import withStroke
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
-from hypofab.figures.element_tests import INCH, STYLE, line_style
-from hypofab.results.element_tests import Array, ResultError
+from hypofab.figures.style import INCH, STYLE, line_style
 from hypofab.results.fabric import Result, tensor
+from hypofab.results.tables import ResultError
+from hypofab.tensors import Array
 
 COLOURS = "viridis"
 BAR = {"color": "#9ECAE1", "edgecolor": "#3B6C8C", "linewidth": 0.5}

@@ -6,10 +6,10 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hypofab.figures.element_tests import COLUMN, STYLE, line_style
+from hypofab.figures.style import COLUMN, STYLE, line_style
 from hypofab.laboratory.catalogue import LabTest
-from hypofab.laboratory.decks import Computed
 from hypofab.laboratory.series import Series
+from hypofab.laboratory.variants import Computed
 
 MEASURED = {"color": "0.55", "linewidth": 0, "marker": "o", "markersize": 2.5, "markerfacecolor": "none"}
 

@@ -1,16 +1,16 @@
 """Figures of results in memory, in one line. Each function returns a matplotlib Figure: .savefig("figure.png").
 
-The same figures as `hypofab plot` and `python -m hypofab fabric` draw from files.
+The same figures as `hypofab plot` draws from files.
 """
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from hypofab.decks.study import TestResult
 from hypofab.errors import InputError, Status
 from hypofab.fabric.changes import Directions
 from hypofab.fabric.samples import Fabric
@@ -21,11 +21,16 @@ from hypofab.figures import paths as path_figures
 from hypofab.figures import probes as probe_figures
 from hypofab.figures import sensitivities as sensitivity_figures
 from hypofab.figures import surfaces as probe_surfaces
-from hypofab.model.probing import Probes, Subspace, fit_ellipsoid, triangles
-from hypofab.results import element_tests as results
-from hypofab.results import probes, vtp
+from hypofab.figures.envelopes import response_envelopes
+from hypofab.model.probing import Subspace, fit_ellipsoid, triangles
+from hypofab.results import vtp
+from hypofab.results.cycles import accumulation_of
+from hypofab.results.element_tests import Run, TestResult
+from hypofab.results.envelopes import EnvelopeSeries
 from hypofab.results.fabric import Result
 from hypofab.results.measured import Measured, read_measured
+from hypofab.results.probes import Envelope, Probes, ProbeSeries
+from hypofab.results.sensitivities import Sensitivities
 from hypofab.tensors import Array, norm
 
 Tests = TestResult | Mapping[str, TestResult] | Iterable[TestResult]
@@ -52,7 +57,7 @@ def plot(
     kind: one of KINDS; "accumulation": a quantity at the ends of cycles (options quantity, default "eps_acc", and log);
     "sensitivities" of one test: its curve with each number changed (options x, y, change, numbers).
     measured: data to draw over, label -> columns by their names in results (also eps_1, e), or label -> CSV file.
-    options: those of the figure's function in hypofab.figures or hypofab.path_figures, as zoom=1e-3.
+    options: those of the figure's function in hypofab.figures.element_tests or hypofab.figures.paths, as zoom=1e-3.
     """
     if isinstance(tests, Mapping):
         several = list(tests.items())
@@ -97,7 +102,7 @@ def plot_envelopes(
         raise InputError(f"what = '{what}', expected one of envelope, {', '.join(others)}", Status.BAD_ARGUMENT)
     if directions == "axisymmetric" and not envelope.imposes_stress:
         series = [_classical(name, probe, basis, unit) for name, probe in states.items()]
-        return figures.response_envelopes(series, compression_positive=compression_positive)
+        return response_envelopes(series, compression_positive=compression_positive)
     if directions == "principal":
         pieces = [_piece(index, probe) for index, probe in enumerate(states.values())]
         return probe_surfaces.surfaces_of(envelope, list(states), pieces, compression_positive=compression_positive)
@@ -148,20 +153,14 @@ def _data(measured: Measured | Mapping[str, str | Path]) -> Measured:
     return {label: one for label, one in measured.items() if label not in files} | read_measured(files)
 
 
-def _run(tests: list[tuple[str, TestResult]]) -> results.Run:
-    """Tests in memory, by their labels, as those of files."""
-
-    def converted(label: str, test: TestResult) -> results.TestResult:
-        return results.result_of(label, lambda name: test.rows[name], test.material.parameters())
-
+def _run(tests: list[tuple[str, TestResult]]) -> Run:
+    """Tests by their labels as a run."""
     first = tests[0][1]
-    return results.Run(first.unit, first.sign < 0, tuple(converted(*one) for one in tests))
+    return Run(first.unit, first.sign < 0, tuple(replace(test, name=label) for label, test in tests))
 
 
 def _accumulation(tests: list[tuple[str, TestResult]], *, quantity: str = "eps_acc", log: bool = False) -> Figure:
-    found = [
-        cycles.accumulation_of(label, *(test[name] for name in ("cycle", "step", quantity))) for label, test in tests
-    ]
+    found = [accumulation_of(label, *(test[name] for name in ("cycle", "step", quantity))) for label, test in tests]
     cyclic = [one for one in found if one is not None]
     if not cyclic:
         raise InputError("no test with cycles among these", Status.BAD_ARGUMENT)
@@ -173,8 +172,8 @@ def _sensitivities(tests: list[tuple[str, TestResult]], **options: Any) -> Figur
     if others or not test.sensitivities:
         raise InputError("expected one test that was run with sensitivities", Status.BAD_ARGUMENT)
     columns = {name: test.rows[name] for name in next(iter(test.sensitivities.values()))}
-    known = {name: float(values[0]) for name, values in columns.items()} | test.material.parameters()
-    found = sensitivity_figures.Sensitivities(label, columns, test.sensitivities, known, test.unit)
+    known = {name: float(values[0]) for name, values in columns.items()} | dict(test.material or {})
+    found = Sensitivities(label, columns, test.sensitivities, known, test.unit)
     return sensitivity_figures.curves(found, **options)
 
 
@@ -201,12 +200,12 @@ def _within(space: Subspace, tensors: Array) -> bool:
     return bool(np.abs(space.coordinates(tensors) @ space.basis - tensors).max() < 1e-9)
 
 
-def _classical(name: str, probe: Probes, basis: Array, unit: str) -> results.EnvelopeSeries:
+def _classical(name: str, probe: Probes, basis: Array, unit: str) -> EnvelopeSeries:
     """One state in the axisymmetric plane: coordinates are the axial part and sqrt(2) times the lateral one."""
     space = Subspace(basis)
     direction, response = space.coordinates(probe.direction), space.coordinates(probe.response)
-    delta = space.coordinates(probe.state.delta) / (probe.material.R or 1.0)
-    return results.EnvelopeSeries(
+    delta = space.coordinates(probe.delta) / (probe.material["R"] or 1.0)
+    return EnvelopeSeries(
         name or "response",
         np.degrees(np.arctan2(direction[:, 1], direction[:, 0])),
         *response.T,
@@ -215,38 +214,17 @@ def _classical(name: str, probe: Probes, basis: Array, unit: str) -> results.Env
     )
 
 
-def _envelope(states: Mapping[str, Probes], directions: str, basis: Array, unit: str) -> probes.Envelope:
-    """Probes in memory as those of files."""
+def _envelope(states: Mapping[str, Probes], directions: str, basis: Array, unit: str) -> Envelope:
+    """Probes by their names as an envelope."""
 
-    def series(name: str, probe: Probes) -> probes.ProbeSeries:
-        unloaded = not np.isnan(probe.irrecoverable).all()
-        ellipsoid = None
-        if directions in ("axisymmetric", "plane") and len(probe) > len(basis) + 3:
-            fit = fit_ellipsoid(Subspace(basis), probe)
-            axes = (
-                fit.centre,
-                fit.semi_axis,
-                fit.axis,
-                fit.distance,
-                fit.nonlinearity,
-                fit.straightness,
-                fit.direction,
-            )
-            ellipsoid = probes.Ellipsoid(*axes)
-        return probes.ProbeSeries(
-            name or "response",
-            probe.state.stress,
-            probe.state.delta,
-            basis,
-            probe.direction,
-            probe.response,
-            probe.irrecoverable if unloaded else None,
-            probe.stiffness,
-            ellipsoid,
+    def series(name: str, probe: Probes) -> ProbeSeries:
+        fitted = directions in ("axisymmetric", "plane") and len(probe) > len(basis) + 3
+        return ProbeSeries.of(
+            probe, name or "response", basis, fit_ellipsoid(Subspace(basis), probe) if fitted else None
         )
 
     first = next(iter(states.values()))
-    return probes.Envelope(
+    return Envelope(
         name="",
         unit=unit,
         compression_positive=False,

@@ -8,10 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from hypofab.figures.element_tests import COLUMN, STYLE, legend, line_style
-from hypofab.results import measured as laboratory
-from hypofab.results.element_tests import Array, Run, TestResult
+from hypofab.figures import measured as laboratory
+from hypofab.figures.style import COLUMN, STYLE, legend, line_style
+from hypofab.results.element_tests import Run, TestResult
 from hypofab.results.measured import Measured
+from hypofab.tensors import Array
 
 LIMITS = (("e_i0", "e_i", (0, (7, 2))), ("e_c0", "e_c", (0, (3, 2))), ("e_d0", "e_d", (0, (1, 1.5))))
 """Parameter, symbol and dashes of the limiting void ratios."""

@@ -7,9 +7,9 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hypofab.figures.element_tests import INCH, STYLE
-from hypofab.results.element_tests import COMPONENTS, Array
-from hypofab.results.probes import Envelope, ProbeSeries, contraction, coordinates
+from hypofab.figures.style import INCH, STYLE
+from hypofab.results.probes import Envelope, ProbeSeries
+from hypofab.tensors import COMPONENTS, Array, contraction, coordinates
 
 MARKERS = (("o", "#000000"), ("s", "#D55E00"), ("^", "#00508C"), ("D", "#009E73"), ("v", "#AA3377"), ("P", "#7F7F7F"))
 """Marker and colour of a series: apart in grey print by their shapes."""
@@ -68,7 +68,7 @@ def ellipse(series: ProbeSeries, points: int = 181) -> Array:
     assert series.ellipsoid is not None
     turn = np.linspace(0, 2 * np.pi, points)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
-    tensors = series.ellipsoid.centre + (circle * series.ellipsoid.semi_axes) @ series.ellipsoid.axes
+    tensors = series.ellipsoid.centre + (circle * series.ellipsoid.semi_axis) @ series.ellipsoid.axis
     return coordinates(series.basis, tensors)
 
 
@@ -136,7 +136,7 @@ def _scaled_strains(envelope: Envelope) -> list[Array]:
     sign = _sign(envelope, compression_positive=True)
     strains = []
     for series in envelope.series:
-        strain = series.response if series.irrecoverable is None else series.irrecoverable
+        strain = series.irrecoverable if series.unloaded else series.response
         largest = np.sqrt(np.nanmax(contraction(strain, strain)))
         whole = np.sqrt(np.nanmax(contraction(series.response, series.response)))
         strains.append(sign * strain / largest if largest > 1e-9 * whole else np.zeros_like(strain))
@@ -150,7 +150,7 @@ def flow(envelope: Envelope) -> Figure:
     Right: volumetric over deviatoric strain. Without unloading the strain is the whole answer.
     """
     strains = _scaled_strains(envelope)
-    what = "strain" if envelope.series[0].irrecoverable is None else "irrecoverable strain"
+    what = "irrecoverable strain" if envelope.series[0].unloaded else "strain"
     with rc_context(STYLE):
         figure = Figure(figsize=(170 / INCH, 100 / INCH), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.15, 1))

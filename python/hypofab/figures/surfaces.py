@@ -10,11 +10,12 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-from hypofab.figures.element_tests import INCH, STYLE
 from hypofab.figures.probes import convention, directional_stiffness, fan, flow, scale
-from hypofab.results.element_tests import Array, ResultError
+from hypofab.figures.style import INCH, STYLE
 from hypofab.results.probes import Envelope, is_classical
+from hypofab.results.tables import ResultError
 from hypofab.results.vtp import Piece, read_vtp
+from hypofab.tensors import Array
 
 
 def _draw(figure: Figure, place: tuple[int, int, int], points: Array, piece: Piece, cube: Array) -> Axes3D:

@@ -7,7 +7,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from hypofab.errors import InputError, Status
-from hypofab.figures.element_tests import COLUMN, INCH, STYLE
+from hypofab.figures.style import COLUMN, INCH, STYLE
 from hypofab.figures.sweep_labels import abscissa_label, label
 from hypofab.sweeps.sobol_indices import SobolIndices
 from hypofab.sweeps.sweep import SweepResult

@@ -7,9 +7,9 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hypofab.figures.element_tests import INCH, STYLE
-from hypofab.results.element_tests import COMPONENTS
+from hypofab.figures.style import INCH, STYLE
 from hypofab.results.fabric import Result
+from hypofab.tensors import COMPONENTS
 
 MARKERS = "osD^vP"
 GREYS = ("black", "#D55E00", "#00508C", "#009E73", "#AA3377", "0.5")

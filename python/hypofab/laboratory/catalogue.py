@@ -4,6 +4,8 @@ import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from hypofab.results.tables import ResultError
+
 KINDS = (
     "oedometer",
     "drained_compression",
@@ -14,7 +16,7 @@ KINDS = (
 """Kinds of tests; all but the first are triaxial, from an isotropic state."""
 
 
-class CatalogueError(ValueError):
+class CatalogueError(ResultError):
     """A catalogue does not say what is needed; the message names the entry."""
 
 

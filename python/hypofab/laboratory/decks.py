@@ -4,56 +4,20 @@ Decks are JSON, which is YAML too.
 """
 
 import json
-import subprocess
-from dataclasses import dataclass
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
+from hypofab.decks.study import Study
+from hypofab.errors import PhysicalError
 from hypofab.laboratory.catalogue import LabTest
 from hypofab.laboratory.series import Series, legs, read_computed
-from hypofab.results.element_tests import ResultError, read_summary
+from hypofab.laboratory.variants import Computed, Variant
+from hypofab.results.tables import read_summary
 
 CYCLES = 60
 """Cycles computed at most in a cyclic test."""
-
-STARTS = {
-    "mobilised": "along the isotropic (oedometer: axial) compression before the test",
-    "zero": "no memory",
-    "shearing": "along the strain that the test begins with: the softest answer",
-}
-"""Starts of the intergranular strain, and what they mean. The first is the one the report judges by."""
-
-
-@dataclass(frozen=True)
-class Variant:
-    """A laboratory test as computed."""
-
-    test: LabTest
-    sand: str
-    start: str
-    """Key of STARTS, or "none" for a sand without intergranular strain."""
-    void_ratio: float
-
-    @property
-    def name(self) -> str:
-        """Name of the test in the deck and of its result file."""
-        return f"{self.test.name}-{self.sand}-{self.start}-e{self.void_ratio:.4f}"
-
-
-@dataclass(frozen=True)
-class Computed:
-    """Result of a variant."""
-
-    variant: Variant
-    rows: Series
-    status: str
-    """What the program says of how it ended."""
-
-
-def starts_of(test: LabTest) -> tuple[str, ...]:
-    """The starts of delta that differ: in an oedometer the compression before is the strain that follows."""
-    return tuple(start for start in STARTS if not (test.kind == "oedometer" and start == "shearing"))
 
 
 def initial_stress(test: LabTest, measured: Series) -> tuple[float, float]:
@@ -131,25 +95,11 @@ def write_deck(variants: list[Variant], measured: Series, path: Path) -> None:
     path.write_text(json.dumps(deck, indent=1) + "\n", encoding="utf-8")
 
 
-def run_deck(program: str, deck: Path, directory: Path, variants: list[Variant]) -> list[Computed]:
-    """Run a deck; a variant that stops early keeps its rows and its reason."""
-    call = [program, "run", str(deck), "-o", str(directory)]
-    try:
-        result = subprocess.run(call, capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise ResultError(f"{program}: {error.strerror}") from error
-    if result.returncode not in (0, 1):
-        raise ResultError(f"{deck}: {result.stderr.strip()}")
+def run_deck(deck: Path, directory: Path, variants: list[Variant]) -> list[Computed]:
+    """Run a deck into files; a variant that stops early keeps its rows and its reason."""
+    with suppress(PhysicalError):  # one has stopped early: the summary says which
+        Study(deck).write(directory)
     ends = {test["name"]: test["status_text"] for test in read_summary(directory)["tests"]}
     return [
         Computed(variant, read_computed(directory / f"{variant.name}.csv"), ends[variant.name]) for variant in variants
     ]
-
-
-def sand_parameters(program: str) -> dict[str, dict[str, float]]:
-    """Parameters of the built-in sands by name, h_s in kPa."""
-    try:
-        result = subprocess.run([program, "materials", "--json"], capture_output=True, text=True, check=True)
-    except (OSError, subprocess.CalledProcessError) as error:
-        raise ResultError(f"{program}: {error}") from error
-    return {sand["name"]: sand["parameters"] for sand in json.loads(result.stdout)}

@@ -6,7 +6,7 @@ import numpy as np
 
 from hypofab.laboratory.catalogue import LabTest
 from hypofab.laboratory.series import Series, legs, reversals
-from hypofab.results.element_tests import Array
+from hypofab.tensors import Array
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from hypofab.laboratory.catalogue import LabTest
-from hypofab.results.element_tests import Array, ResultError, read_columns, read_numbers, read_test
+from hypofab.results.element_tests import read_test
+from hypofab.results.tables import ResultError, read_columns, read_numbers
+from hypofab.tensors import Array
 
 
 @dataclass(frozen=True)

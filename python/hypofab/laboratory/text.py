@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hypofab.laboratory.catalogue import LabTest
-from hypofab.laboratory.decks import STARTS
+from hypofab.laboratory.variants import STARTS
 
 
 def _percent(value: str) -> str:

@@ -1,6 +1,6 @@
 """Material parameters and built-in sands."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from typing import Self
@@ -13,7 +13,7 @@ from hypofab.tensors import Array
 
 
 @dataclass(frozen=True, slots=True)
-class Material:
+class Material(Mapping[str, float]):
     """Parameters of the model, in the order of the UMAT's PROPS; docs/theory.md, section 3.
 
     Stresses carry the unit of h_s, angles are degrees. m_R <= 0.5 is the model without intergranular strain.
@@ -64,6 +64,25 @@ class Material:
     def from_numbers(cls, numbers: Array) -> Self:
         """From the sixteen numbers of PROPS."""
         return cls(**dict(zip(ORDER, map(float, numbers), strict=True)))
+
+    def __getitem__(self, name: str) -> float:
+        """A parameter by its name."""
+        if name not in ORDER:
+            raise KeyError(name)
+        return getattr(self, name)
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the parameters."""
+        return iter(ORDER)
+
+    def __len__(self) -> int:
+        """How many parameters there are."""
+        return len(ORDER)
+
+    @property
+    def has_memory(self) -> bool:
+        """Does the model of these parameters have intergranular strain?"""
+        return self.m_R > 0.5
 
     def numbers(self) -> Array:
         """The sixteen numbers of PROPS."""

@@ -1,8 +1,6 @@
 """Probes of a state, response envelopes and their ellipsoids, and stability of a state."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,10 +9,8 @@ from hypofab.errors import InputError, Status, error_of
 from hypofab.library import check, core, interruptible, last_message
 from hypofab.model.materials import Material
 from hypofab.model.points import Branch, State
-from hypofab.tensors import Array, components, many_components
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from hypofab.results.probes import Ellipsoid, Probes
+from hypofab.tensors import Array, components, coordinates, many_components
 
 AXES = ("x", "y", "z")
 
@@ -58,7 +54,7 @@ class Subspace:
 
     def coordinates(self, tensors: ArrayLike) -> Array:
         """Coordinates of tensors (..., 6): (..., dimension)."""
-        return np.asarray(tensors) * np.array([1, 1, 1, 2, 2, 2]) @ self.basis.T
+        return coordinates(self.basis, tensors)
 
     def directions(self, n: int) -> Array:
         """Evenly distributed unit tensors, (n, 6). Three dimensions: 5 or more; six: an even number."""
@@ -74,49 +70,6 @@ def triangles(n: int) -> NDArray[np.intc]:
     status, corners = core.triangles(n, max(2 * n - 4, 1))
     check(status)
     return corners
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Probes:
-    """Probes of a state and what answers them, per unit of what is imposed; NaN where the status is not 0."""
-
-    imposed: str
-    direction: Array
-    """(n, 6) unit tensors: of strain, or of stress"""
-    response: Array
-    """(n, 6) stress answer [stress], or strain answer [1/stress]"""
-    irrecoverable: Array
-    """(n, 6) what of it is left after unloading; NaN without unloading"""
-    status: NDArray[np.intc]
-    stiffness: Array
-    """(n,) stress over strain, by norms [stress]"""
-    work: Array
-    """second-order work: cosine between stress and strain increment"""
-    dilatancy: Array
-    """of the flow"""
-    angle_to_stress: Array
-    """between deviators of flow and stress [deg]"""
-    angle_to_delta: Array
-    """between deviators of flow and intergranular strain [deg]"""
-    material: Material
-    state: State
-    """what was probed"""
-    size: float
-    """norm of the increment; 0: rates"""
-
-    def __len__(self) -> int:
-        """Number of probes."""
-        return len(self.direction)
-
-    def __iter__(self) -> Iterator[tuple[Array, Array]]:
-        """Pairs of direction and response."""
-        return iter(zip(self.direction, self.response, strict=True))
-
-    def plot(self, **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
-        """The figure of these probes; several states in one, and options: hypofab.plot_envelopes."""
-        from hypofab.figures.memory import plot_envelopes  # matplotlib, only where it is wanted
-
-        return plot_envelopes({"": self}, **options)
 
 
 def probe(
@@ -161,29 +114,6 @@ def probe(
 def envelope(material: Material, state: State, n: int = 72, axis: str = "y", **options: object) -> Probes:
     """Response envelope of a state in the axisymmetric plane (Gudehus 1979): n probes, options as probe()."""
     return probe(material, state, Subspace.axisymmetric(axis).directions(n), **options)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Ellipsoid:
-    """The ellipsoid (in a plane: ellipse) nearest to an envelope."""
-
-    centre: Array
-    semi_axis: Array
-    """lengths, largest first"""
-    axis: Array
-    """(dimension, 6) their directions"""
-    distance: float
-    """of the points from the ellipsoid, relative: root mean squares"""
-    nonlinearity: float
-    """the same from the best centred ellipsoid: 0 for an incrementally linear material"""
-    direction: Array
-    """along which the points scatter most about the origin"""
-    straightness: float
-    """share of their mean square along it; 1: a straight line"""
-    points: int
-    """probes used"""
-    distances: Array
-    """of each point; NaN for probes without answer"""
 
 
 def fit_ellipsoid(space: Subspace, probes: Probes, part: str = "response") -> Ellipsoid:

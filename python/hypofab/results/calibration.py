@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from hypofab.results.element_tests import ResultError
+from hypofab.results.tables import ResultError
 
 Columns = Mapping[str, NDArray[np.float64]]
 """Arrays of equal length by name: eps1, eps_v, q, p, e, sigma1 (NaN: not measured), leg. Compression positive."""

@@ -4,7 +4,6 @@ Tensors have the components xx yy zz xy xz yz, or xx yy xy in two dimensions.
 """
 
 import csv
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from hypofab.results.element_tests import Array, ResultError
+from hypofab.results.tables import ResultError, read_json
+from hypofab.tensors import Array
 
 MECHANISMS = ("loss", "gain", "reorientation")
 
@@ -61,15 +61,10 @@ KINDS: tuple[Callable[[dict[str, Any]], bool], ...] = (
 )
 
 
-def read_json(path: str | Path, label: str | None = None) -> list[Result]:
+def read_results(path: str | Path, label: str | None = None) -> list[Result]:
     """The objects of a file: one, or those of an array. ResultError when none is known here."""
     path = Path(path)
-    try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ResultError(f"{path}: {error.strerror}") from error
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise ResultError(f"{path}: {error}") from error
+    data = read_json(path)
     objects = data if isinstance(data, list) else [data]
     for one in objects:
         if not isinstance(one, dict) or not any(kind(one) for kind in KINDS):

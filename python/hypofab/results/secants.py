@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from hypofab.results import paper000
-from hypofab.results.element_tests import ResultError, read_summary
+from hypofab.results.tables import ResultError, read_summary
 
 REFERENCES = {
     "paper, element test": paper000.ELEMENT_TEST,

@@ -7,7 +7,8 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from hypofab.results.element_tests import Array, ResultError
+from hypofab.results.tables import ResultError
+from hypofab.tensors import Array
 
 
 @dataclass(frozen=True)

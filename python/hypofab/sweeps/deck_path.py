@@ -14,7 +14,7 @@ class PathError(Exception):
 
 
 @dataclass(frozen=True)
-class Step:
+class Part:
     """One part of a path."""
 
     key: str
@@ -22,27 +22,27 @@ class Step:
     """an entry of a list, by name or number; else a key of a mapping"""
 
 
-def parse_path(text: str) -> tuple[Step, ...]:
+def parse_path(text: str) -> tuple[Part, ...]:
     """The parts of a path."""
     steps, end = [], 0
     while end < len(text):
         part = _PATH.match(text, end)
         if part is None:
             raise PathError(_EXPECTED)
-        steps.append(Step(part[1], False))
-        steps += [Step(entry, True) for entry in re.findall(r"\[([^\]]+)\]", part[2])]
+        steps.append(Part(part[1], False))
+        steps += [Part(entry, True) for entry in re.findall(r"\[([^\]]+)\]", part[2])]
         end = part.end()
     if not steps or text.endswith("."):
         raise PathError(_EXPECTED)
     return tuple(steps)
 
 
-def path_text(path: Sequence[Step]) -> str:
+def path_text(path: Sequence[Part]) -> str:
     """The path as it is written."""
     return "".join(f"[{step.key}]" if step.in_list else f".{step.key}" for step in path).removeprefix(".")
 
 
-def replaced(deck: Any, path: Sequence[Step], value: Any, _done: int = 0) -> Any:  # noqa: ANN401 - parts of a deck
+def replaced(deck: Any, path: Sequence[Part], value: Any, _done: int = 0) -> Any:  # noqa: ANN401 - parts of a deck
     """A deck with another value at a place. Mappings on the way that are missing are made; the given deck stays."""
     if _done == len(path):
         return value

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hypofab.sampling import Distribution, Shape
-from hypofab.sweeps.deck_path import PathError, Step, parse_path
+from hypofab.sweeps.deck_path import Part, PathError, parse_path
 from hypofab.sweeps.source import Node
 from hypofab.tensors import Array
 
@@ -21,7 +21,7 @@ class Input:
     """One number (or word) that varies."""
 
     name: str
-    paths: tuple[tuple[Step, ...], ...] = ()
+    paths: tuple[tuple[Part, ...], ...] = ()
     """places in the deck that take it"""
     distribution: Distribution | None = None
     values: tuple[Any, ...] | None = None
@@ -59,7 +59,7 @@ def _read(name: str, node: Node, deck: bool) -> Input:
     return Input(name, paths, **given)
 
 
-def _paths(node: Node) -> tuple[tuple[Step, ...], ...]:
+def _paths(node: Node) -> tuple[tuple[Part, ...], ...]:
     nodes = [node] if isinstance(node.value, str) else node.items("a path into the deck, or a list of paths")
     paths = []
     for one in nodes:

@@ -12,7 +12,7 @@ import numpy as np
 from hypofab.decks.study import Study
 from hypofab.errors import HypofabError, Status
 from hypofab.fabric.samples import fabric_of_file
-from hypofab.sweeps.deck_path import Step, replaced
+from hypofab.sweeps.deck_path import Part, replaced
 from hypofab.sweeps.outputs import Output
 
 Point = Mapping[str, Any]
@@ -34,7 +34,7 @@ class DeckModel:
     deck: Mapping[str, Any]
     folder: str
     """of the paths in the deck"""
-    places: Mapping[str, Sequence[tuple[Step, ...]]]
+    places: Mapping[str, Sequence[tuple[Part, ...]]]
     outputs: tuple[Output, ...]
 
     def at(self, point: Point) -> Mapping[str, Any]:

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hypofab.drawing import draw
 from hypofab.errors import InputError, Status
 from hypofab.sweeps.sweep import SweepResult, sweep
 from hypofab.tensors import Array
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from hypofab.drawing import Figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,10 +37,8 @@ class SobolIndices:
     confidence: float
 
     def plot(self) -> "Figure":
-        """A bar chart; several outputs beside each other: hypofab.sweeps.figures.sobol_bars."""
-        from hypofab.figures.sweeps import sobol_bars  # matplotlib, only where it is wanted
-
-        return sobol_bars({self.output: self})
+        """A bar chart; several outputs beside each other: hypofab.figures.sweeps.sobol_bars."""
+        return draw("sweeps.sobol_bars", {self.output: self})
 
     def mapping(self) -> dict[str, Any]:
         """As JSON keeps it."""

@@ -13,6 +13,7 @@ import numpy as np
 import pyarrow as pa
 from tqdm import tqdm
 
+from hypofab.drawing import draw
 from hypofab.errors import InputError, Status
 from hypofab.sweeps.plan import Plan, read_plan
 from hypofab.sweeps.running import Rows, processors, run_here, run_in_processes, run_on
@@ -21,7 +22,7 @@ from hypofab.sweeps.store import Store, read_folder, read_manifest, table_of
 from hypofab.tensors import Array
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from hypofab.drawing import Figure
 
 
 class _Bar(tqdm):
@@ -77,14 +78,12 @@ class SweepResult:
     def plot(self, kind: str = "scatter", **options: Any) -> "Figure":  # noqa: ANN401 - of the figure
         """A figure: "scatter" (outputs over inputs), "histograms", or "fan" of a curve (name="q").
 
-        Options are those of the function of this name in hypofab.sweeps.figures.
+        Options are those of the function of this name in hypofab.figures.sweeps.
         """
-        from hypofab.sweeps import figures  # matplotlib, only where it is wanted
-
-        kinds = {"scatter": figures.scatter, "histograms": figures.histograms, "fan": figures.fan}
+        kinds = ("scatter", "histograms", "fan")
         if kind not in kinds:
             raise InputError(f"kind = '{kind}', expected one of {', '.join(kinds)}", Status.BAD_ARGUMENT)
-        return kinds[kind](self, **options)
+        return draw(f"sweeps.{kind}", self, **options)
 
     def unit(self, name: str) -> str:
         """The unit that an input or output was told to have, "" if none."""

@@ -1,48 +1,33 @@
-"""`python -m hypofab fabric FILE...`: every figure that the files of the program have the numbers for."""
+"""Figures of the JSON and CSV that the program prints of fabric: what `hypofab plot FILE...` draws."""
 
 import argparse
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
+from hypofab.cli.saving import save
+from hypofab.figures import Figure
 from hypofab.figures import changes as change_figures
 from hypofab.figures import fabric as fabric_figures
 from hypofab.figures import uncertainty as uncertainty_figures
 from hypofab.results import fabric as fabric_results
-from hypofab.results.element_tests import ResultError
 from hypofab.results.fabric import Result
+from hypofab.results.tables import ResultError
 
 DEFAULT_COLUMNS = ("coordination_number", "deviator_fabric", "anisotropy")
 
 
-def labelled_file(text: str) -> tuple[str | None, Path]:
-    """Parse LABEL=FILE, or FILE alone."""
-    label, separator, file = text.rpartition("=")
-    return (label, Path(file)) if separator else (None, Path(text))
+def add_arguments(parser: "argparse._ArgumentGroup") -> None:
+    """How to draw files of fabric."""
+    parser.add_argument("-o", "--output", type=Path, default=Path(), metavar="DIR", help="for the figures (here)")
+    parser.add_argument("--up", choices="xyz", default="z", help="upright axis of surfaces (z)")
+    parser.add_argument("--columns", metavar="NAME,...", help=f"of a series ({','.join(DEFAULT_COLUMNS)})")
+    parser.add_argument("--over", metavar="NAME", help="column of a series to draw over (number of the snapshot)")
 
 
-def add_parser(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """Add the subcommand to the command line."""
-    text = "figures of fabric, directions, changes, series and intervals as PNG and PDF"
-    fabric = commands.add_parser("fabric", help=text)
-    fabric.add_argument(
-        "files",
-        nargs="+",
-        metavar="[LABEL=]FILE",
-        type=labelled_file,
-        help="JSON of hypofab fabric, delta, describe, directions, changes, stiffness; CSV of hypofab describe",
-    )
-    fabric.add_argument("-o", "--output", type=Path, default=Path(), metavar="DIR", help="for the figures (here)")
-    fabric.add_argument("--up", choices="xyz", default="z", help="upright axis of surfaces (z)")
-    fabric.add_argument("--columns", metavar="NAME,...", help=f"of a series ({','.join(DEFAULT_COLUMNS)})")
-    fabric.add_argument("--over", metavar="NAME", help="column of a series to draw over (number of the snapshot)")
-
-
-def figures(options: argparse.Namespace) -> Iterator[tuple[str, Figure]]:
+def figures(files: Sequence[tuple[str | None, Path]], options: argparse.Namespace) -> Iterator[tuple[str, Figure]]:
     """The name of each figure and the figure."""
-    tables = {label or path.stem: path for label, path in options.files if path.suffix == ".csv"}
-    read = (fabric_results.read_json(path, label) for label, path in options.files if path.suffix != ".csv")
+    tables = {label or path.stem: path for label, path in files if path.suffix == ".csv"}
+    read = (fabric_results.read_results(path, label) for label, path in files if path.suffix != ".csv")
     samples = [sample for file in read for sample in file]
 
     def of(kind: Callable[[dict], bool]) -> list[Result]:
@@ -70,10 +55,10 @@ def figures(options: argparse.Namespace) -> Iterator[tuple[str, Figure]]:
         yield "series", fabric_figures.series(read_tables, columns, over=options.over)
 
 
-def run(options: argparse.Namespace, save: Callable[[Figure, Path], None]) -> None:
-    """Draw and save every figure."""
+def draw(files: Sequence[tuple[str | None, Path]], options: argparse.Namespace) -> None:
+    """Draw and save every figure of labelled files."""
     if options.output.exists() and not options.output.is_dir():
         raise ResultError(f"{options.output}: not a folder; expected one for the figures")
     options.output.mkdir(parents=True, exist_ok=True)
-    for name, figure in figures(options):
+    for name, figure in figures(files, options):
         save(figure, options.output / name.replace("/", "_"))

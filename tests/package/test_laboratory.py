@@ -1,8 +1,9 @@
-"""Laboratory tests: error measures in closed form; a report of files that the program itself computed; real ones."""
+"""Laboratory tests: error measures in closed form; a report of files that were computed themselves; real ones."""
 
 import csv
 import json
 import os
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -10,13 +11,12 @@ import pytest
 
 from hypofab.__main__ import main
 from hypofab.laboratory.catalogue import CatalogueError, load_catalogue
-from hypofab.laboratory.decks import Variant, run_deck, write_deck
+from hypofab.laboratory.decks import run_deck, write_deck
 from hypofab.laboratory.measures import agreement, compare, interpolate
 from hypofab.laboratory.series import Series, legs, reversals
+from hypofab.laboratory.variants import Variant
 
-PROGRAM = os.environ.get("HYPOFAB_PROGRAM")
 LAB_DATA = os.environ.get("HYPOFAB_LAB_DATA")
-needs_program = pytest.mark.skipif(PROGRAM is None, reason="HYPOFAB_PROGRAM does not name the program")
 
 
 def test_measures_in_closed_form() -> None:
@@ -78,8 +78,7 @@ def entry(name: str, kind: str, columns: list[str], **rest: object) -> dict:
     } | rest
 
 
-@needs_program
-def test_what_the_program_computed_agrees_with_itself(tmp_path: Path) -> None:
+def test_what_was_computed_agrees_with_itself(tmp_path: Path) -> None:
     """Files "measured" with delta = 0: the report finds them again with that start, and less well with the others."""
     entries = [
         entry("drained", "drained_compression", ["eps1", "eps_v", "q"], sigma3=100, void_ratio=0.7),
@@ -100,7 +99,7 @@ def test_what_the_program_computed_agrees_with_itself(tmp_path: Path) -> None:
             test, "hochstetten", "zero" if test.name == "drained" else "mobilised", test.void_ratio or 0.8
         )
         write_deck([variant], rows, tmp_path / "deck.yaml")
-        (run,) = run_deck(PROGRAM, tmp_path / "deck.yaml", tmp_path / "run", [variant])
+        (run,) = run_deck(tmp_path / "deck.yaml", tmp_path / "run", [variant])
         assert run.status == "done"
         if test.kind == "oedometer":
             (found,) = compare(test, Series(abscissas[test.name] | {"e": np.arange(7.0)}), run.rows)
@@ -117,7 +116,7 @@ def test_what_the_program_computed_agrees_with_itself(tmp_path: Path) -> None:
             writer.writerow(columns)
             writer.writerows(zip(*columns.values(), strict=True))
 
-    call = ["laboratory", str(data), "-o", str(out), "--catalogue", str(catalogue), "--program", PROGRAM]
+    call = ["laboratory", str(data), "-o", str(out), "--catalogue", str(catalogue)]
     assert main(call) == 0
     with (out / "errors.csv").open() as file:
         errors = {(row["test"], row["start"], row["quantity"]): row for row in csv.DictReader(file)}
@@ -135,21 +134,20 @@ def test_what_the_program_computed_agrees_with_itself(tmp_path: Path) -> None:
 
 
 def test_a_folder_without_tests_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["laboratory", str(tmp_path), "-o", str(tmp_path / "out"), "--program", "hypofab"]) == 2
+    assert main(["laboratory", str(tmp_path), "-o", str(tmp_path / "out")]) == 2
     assert "none of the 22 files" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
-@needs_program
 @pytest.mark.skipif(
     LAB_DATA is None, reason="HYPOFAB_LAB_DATA does not name a folder of laboratory tests: NOT COMPARED"
 )
 def test_hochstetten_sand_is_met(tmp_path: Path) -> None:
     """Published parameters, nothing fitted: what was found before on these tests."""
-    built_in = Path(__file__).resolve().parents[2] / "python" / "hypofab" / "laboratory" / "catalogue.json"
+    built_in = resources.files("hypofab.laboratory") / "catalogue.json"
     entries = [item for item in json.loads(built_in.read_text()) if item["material"] == "Hochstetten sand"]
     catalogue = write_catalogue(tmp_path / "catalogue.json", entries)
-    call = ["laboratory", LAB_DATA, "-o", str(tmp_path), "--catalogue", str(catalogue), "--program", PROGRAM]
+    call = ["laboratory", LAB_DATA, "-o", str(tmp_path), "--catalogue", str(catalogue)]
     assert main(call) == 0
     with (tmp_path / "errors.csv").open() as file:
         r2 = {
