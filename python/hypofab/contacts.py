@@ -1,5 +1,5 @@
-"""Descriptors and delta of contacts (docs/descriptors.md): hypofab.fabric.contacts by a short name."""
+"""Descriptors and delta of contacts (docs/descriptors.md): the commands describe and delta as Python calls."""
 
-from hypofab.fabric.contacts import COLUMNS, delta, describe, series
+from hypofab.cli.calls import COLUMNS, delta, describe, series
 
 __all__ = ["COLUMNS", "delta", "describe", "series"]

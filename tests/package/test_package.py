@@ -15,8 +15,8 @@ import pytest
 
 import hypofab
 from hypofab import _core
-from hypofab.cli.launch import packaged_program
 from hypofab.cli.commands import COMMANDS
+from hypofab.cli.launch import packaged_program
 
 PACKAGE = Path(hypofab.__file__).parent
 COMMAND = Path(sys.executable).with_name("hypofab")

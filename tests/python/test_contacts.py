@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hypofab.fabric.contacts import delta, describe, series
+from hypofab.contacts import delta, describe, series
 from hypofab.results import ResultError
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -1,8 +1,13 @@
-"""The command `hypofab` of an installed package: the compiled program, which hands to this Python what is Python's."""
+"""The compiled program of an installed package: the command `hypofab` becomes it, and Python can call it."""
 
+import json
 import os
+import shutil
+import subprocess
 import sys
 from pathlib import Path
+
+from hypofab.results.tables import ResultError
 
 
 def packaged_program() -> Path | None:
@@ -11,11 +16,34 @@ def packaged_program() -> Path | None:
     return path if path.exists() else None
 
 
+def program() -> str:
+    """Path of the program: HYPOFAB_PROGRAM, that of the package, of this source tree's build, of the search path."""
+    built = packaged_program() or Path(__file__).parents[3] / "build" / "cli" / "hypofab"
+    found = os.environ.get("HYPOFAB_PROGRAM") or (str(built) if built.exists() else shutil.which("hypofab"))
+    if not found:
+        raise ResultError("hypofab was not found: build it, or name it in HYPOFAB_PROGRAM")
+    return found
+
+
+def run(*arguments: str | Path, accept: tuple[int, ...] = (0,)) -> str:
+    """Standard output of the program; ResultError with its message when it ends with another exit code."""
+    words = [program(), *map(str, arguments)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode not in accept:
+        raise ResultError(f"{' '.join(words)}: {done.stderr.strip() or done.stdout.strip()}")
+    return done.stdout
+
+
+def run_json(*arguments: str | Path) -> dict | list:
+    """The JSON that a command with --json prints."""
+    return json.loads(run(*arguments, "--json"))
+
+
 def main() -> int:
-    """Become the program."""
-    program = packaged_program()
-    if program is None:
+    """Become the program, which hands to this Python what is Python's."""
+    path = packaged_program()
+    if path is None:
         print("hypofab: the package holds no program; `pip install .` builds it", file=sys.stderr)
         return 3
     os.environ["HYPOFAB_PYTHON"] = sys.executable
-    os.execv(program, ["hypofab", *sys.argv[1:]])
+    os.execv(path, ["hypofab", *sys.argv[1:]])

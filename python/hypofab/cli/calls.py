@@ -1,6 +1,6 @@
 """Fabric, descriptors and delta of contacts, in files or in arrays: the commands describe and delta as Python calls.
 
-    from hypofab.fabric.contacts import describe, delta
+    from hypofab.contacts import describe, delta
     found = describe("contacts.txt.gz", particles="particles.txt.gz", friction_angle=30)
     found = describe({"normal": n, "normal_force": f_n, "shear_force": f_t, "branch": l}, volume=1e-6)
     found["forces"]["from_moments"]["a_f"], delta({"normal": n}, c=0.05)["delta"]
@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
+from hypofab.cli.launch import run, run_json
 from hypofab.fabric.contact_files import convert
-from hypofab.papers.program import run, run_json
 from hypofab.results.tables import ResultError
 from hypofab.tensors import Array
 
