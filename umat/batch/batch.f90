@@ -9,10 +9,12 @@ module umat_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t
   use umat_batch_group, only: group_type, whole_registers
   use umat_batch_kernel, only: kernel_type, kernel_of
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: most_points, n_lanes
   use umat_batch_points, only: points_type
   use umat_kinds, only: wp
   use umat_material, only: material_type, material_from_props, n_parameters
+  use umat_step, only: most_share
   use umat_update, only: options_type
   implicit none
   private
@@ -127,8 +129,8 @@ contains
       call group%bring_forward(group%tags(:, t_short) == short_untried, new)
       if (new == 0) exit
       call group%fill_up()
-      call common%kernel%attempt_short(common%m, common%options%tolerance, whole_registers(new), group%lanes, &
-                                       group%tags)
+      call common%kernel%attempt_short(common%m, most_share * common%options%tolerance, whole_registers(new), &
+                                       group%lanes, group%tags)
       call end_segments(common, points, group)
       call close_ranks(common, points, group)
     end do

@@ -4,7 +4,8 @@
 !> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
 module umat_batch_begin_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: n_lanes
   use umat_material, only: material_type
   use umat_delta_path, only: axis_power
   use umat_integration, only: options_type, vanishing, first_step, first_from_zero
@@ -17,8 +18,8 @@ module umat_batch_begin_portable
   real(wp), parameter :: log_of_zero = -1.0e7_wp
   !> |v| only decays: what is below rounding now stays there (delta_path.f90).
   real(wp), parameter :: negligible = 10.0_wp * epsilon(1.0_wp)
-  !> Outside these bounds the scalar update decides: sizes, pressure of h_s, pressure of the size of stress.
-  real(wp), parameter :: smallest_size = 1.0e-90_wp, smallest_pressure = 1.0e-20_wp, smallest_share = 1.0e-12_wp
+  !> Sizes below are left to the scalar update.
+  real(wp), parameter :: smallest_size = 1.0e-90_wp
 contains
 
   !> Direction, length and first segment of an increment.

@@ -5,7 +5,8 @@
 module umat_batch_errors_portable
   use, intrinsic :: iso_fortran_env, only: real64
   use umat_batch_reach_portable, only: nodes_type
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: width
   use umat_lobatto, only: rules, most_nodes, rule_long
   use umat_material, only: material_type
   use umat_step, only: good_sweeps, least_growth, most_growth, safety

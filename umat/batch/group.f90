@@ -3,7 +3,8 @@
 !> The lanes in use stand in front. The last register is filled up with copies, so that the kernel works on whole ones.
 module umat_batch_group
   use, intrinsic :: iso_fortran_env, only: int64
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: n_lanes, width
   use umat_kinds, only: wp
   implicit none
   private

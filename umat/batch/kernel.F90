@@ -2,14 +2,14 @@
 module umat_batch_kernel
   use, intrinsic :: iso_c_binding, only: c_int
   use umat_batch_begin_portable, only: begin_increment_portable => begin_increment, begin_segment_portable => begin_segment
-  use umat_batch_short_portable, only: attempt_short_portable => attempt_short
+  use umat_lanes_short_portable, only: attempt_short_portable => attempt_short
   use umat_batch_step_portable, only: attempt_step_portable => attempt_step
 #ifdef HYPOFAB_BATCH_X86
   use umat_batch_begin_avx2, only: begin_increment_avx2 => begin_increment, begin_segment_avx2 => begin_segment
-  use umat_batch_short_avx2, only: attempt_short_avx2 => attempt_short
+  use umat_lanes_short_avx2, only: attempt_short_avx2 => attempt_short
   use umat_batch_step_avx2, only: attempt_step_avx2 => attempt_step
   use umat_batch_begin_avx512, only: begin_increment_avx512 => begin_increment, begin_segment_avx512 => begin_segment
-  use umat_batch_short_avx512, only: attempt_short_avx512 => attempt_short
+  use umat_lanes_short_avx512, only: attempt_short_avx512 => attempt_short
   use umat_batch_step_avx512, only: attempt_step_avx512 => attempt_step
 #endif
   implicit none

@@ -7,7 +7,8 @@
 !> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
 module umat_batch_path_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: n_lanes, width
   use umat_delta_path, only: axis_power
   use umat_material, only: material_type
   implicit none

@@ -3,7 +3,8 @@ module umat_batch_points
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t
   use umat_batch_group, only: group_type
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: most_points, n_lanes
   use umat_kinds, only: wp
   use umat_material, only: material_type
   use umat_rate, only: state_type

@@ -5,7 +5,8 @@
 module umat_batch_reach_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use umat_batch_path_portable, only: node_type, path_node
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: n_lanes, width
   use umat_integration, only: nearly
   use umat_lobatto, only: lobatto_type, rules, rule_long, most_nodes
   use umat_material, only: material_type

@@ -8,15 +8,16 @@
 module umat_batch_step_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
   use umat_batch_errors_portable, only: missing_of, growth_after, size_of
-  use umat_batch_linear_portable, only: slopes_type, slopes_at, add_linear
+  use umat_lanes_linear_portable, only: slopes_type, slopes_at, add_linear
   use umat_batch_path_portable, only: node_type, carry_node
-  use umat_batch_rate_portable, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
+  use umat_lanes_rate_portable, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
   use umat_batch_reach_portable, only: nodes_type, reach
-  use umat_batch_lanes
-  use umat_border, only: reach_of_border
+  use umat_lanes
+  use umat_many_lanes, only: n_lanes, width
+  use umat_border, only: part_of_pressure, reach_of_border
   use umat_lobatto, only: lobatto_type, rules, most_nodes, rule_long
   use umat_material, only: material_type
-  use umat_step, only: least_share, most_share, most_sweeps, rounding, worth_trying, too_many_sweeps, part_of_pressure
+  use umat_step, only: least_share, most_share, most_sweeps, rounding, worth_trying, too_many_sweeps
   implicit none
   private
   public :: attempt_step

@@ -10,7 +10,7 @@ module umat_integration
   use umat_short_leg, only: short_leg
   use umat_status, only: status_ok, status_out_of_domain, status_step_limit, branch_plain
   use umat_collocation, only: start_of_step
-  use umat_step, only: step_type, reach, try, size_of, most_share, growth_of
+  use umat_step, only: step_type, reach, try, most_share, growth_of
   use umat_tensor, only: norm
   implicit none
   private
@@ -86,17 +86,17 @@ contains
     leg%tolerance = options%tolerance
     leg%with_tangent = with_tangent
 
-    call start_of_step(m, state%stress, state%void_ratio, step%start, status)
-    step%evaluations = 1
-    if (status == status_ok .and. .not. with_tangent) then
-    call short_leg(m, leg, step%start, size_of(m, step%start), most_share * options%tolerance, state, error, accepted, &
-                     step%evaluations)
+    step%evaluations = 0
+    if (.not. with_tangent) then
+      call short_leg(m, leg, most_share * options%tolerance, state, error, accepted, step%evaluations)
       if (accepted) then
         report%evaluations = report%evaluations + step%evaluations
         report%substep = growth_of(error / (most_share * options%tolerance), 4) * length
         return
       end if
     end if
+    call start_of_step(m, state%stress, state%void_ratio, step%start, status)
+    step%evaluations = step%evaluations + 1
 
     leg%path = delta_path(m, state%delta, direction, branch, turn)
     wanted = length

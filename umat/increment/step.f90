@@ -1,5 +1,6 @@
 !> One step of a leg: where it ends, whether its errors are small enough, and what they ask of the next.
 module umat_step
+  use umat_border, only: part_of_pressure
   use umat_collocation, only: nodes_type, place_nodes, start_type, prediction, sweep, missing_of, tail
   use umat_delta_path, only: measures_length
   use umat_influence, only: influence_type, influence_step
@@ -12,10 +13,10 @@ module umat_step
   use umat_wolffersdorff, only: hypoplastic_type, is_admissible
   implicit none
   private
-  public :: step_type, reach, try, size_of, growth_of
+  public :: step_type, reach, try, growth_of
   ! The update of many points side by side (batch/step.f90) takes the same steps.
   public :: least_share, most_share, most_sweeps, good_sweeps, rounding, close_enough, worth_trying, too_many_sweeps
-  public :: least_growth, most_growth, safety, most_trials, most_iterations, slowest, inner_square, part_of_pressure
+  public :: least_growth, most_growth, safety, most_trials, most_iterations, slowest, inner_square
 
   !> A step and where it stands.
   type :: step_type
@@ -45,8 +46,6 @@ module umat_step
   real(wp), parameter :: slowest = 1.0e-3_wp
   !> Square of the place of the inner nodes of the long rule, between -1 and 1.
   real(wp), parameter :: inner_square = 3.0_wp / 7.0_wp
-  !> Part of -tr(T - p_t 1) below which the size of the stress says nothing; below 1/sqrt(3), so that it acts with p_t alone.
-  real(wp), parameter :: part_of_pressure = 0.5_wp
   !> Bounds of the change of a step, and the part of it that is taken.
   real(wp), parameter :: least_growth = 0.1_wp, most_growth = 5.0_wp, safety = 0.9_wp
   !> A step whose prediction asks for less than this part of it is not tried: sweeps hardly change what the nodes leave out.

@@ -1,5 +1,10 @@
-# A part of the kernel under the names of an instruction set: `portable` in the names of its modules gives way.
+# A part of the kernels under the names of an instruction set: `portable` in the names of its modules gives way. `single`: for one lane.
 #   cmake -DSOURCE=step.f90 -DINSTRUCTIONS=avx2 -DOUTPUT=step_avx2.f90 -P kernel.cmake
 file(READ ${SOURCE} text)
 string(REPLACE "_portable" "_${INSTRUCTIONS}" text "${text}")
+if(INSTRUCTIONS STREQUAL "single")
+  string(REPLACE "umat_many_lanes" "umat_one_lane" text "${text}")
+endif()
+file(READ ${CMAKE_CURRENT_LIST_DIR}/series.inc series)
+string(REPLACE "  include 'series.inc'\n" "${series}" text "${text}")
 file(WRITE ${OUTPUT} "! Generated from ${SOURCE}, where corrections belong.\n${text}")

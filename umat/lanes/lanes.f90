@@ -1,16 +1,11 @@
-!> Where the numbers of a material point sit while many points are integrated side by side (batch.f90, step.f90).
+!> Where the numbers of a material point sit while points are integrated side by side, and what the kernels have in common.
 !>
-!> A point occupies a lane; lanes(lane, field) keeps each field of neighbouring lanes together, as vector registers want.
-module umat_batch_lanes
+!> A point occupies a lane; lanes(lane, field) keeps each field of neighbouring lanes together, as vector registers want. How
+!> many lanes there are many_lanes.f90 and one_lane.f90 say: kernels that serve a single point too are compiled with both.
+module umat_lanes
   use, intrinsic :: iso_fortran_env, only: int64, real64
   implicit none
   public
-
-  !> Points that go through the rounds together: many, so that few registers run half empty in later rounds; and lanes
-  !> that the kernel works on at once, a multiple of the widest vector register. No result depends on them.
-  integer, parameter :: most_points = 256, width = 16
-  !> Lanes: room to fill up the registers of two rules, and a few more so that the fields of a point fall into different sets of the cache.
-  integer, parameter :: n_lanes = most_points + 2 * width + 8
 
   !> Fields. Tensors take six; those of delta and void ratio belong to the start of the present segment, a part of the
   !> increment on one branch.
@@ -31,7 +26,8 @@ module umat_batch_lanes
   !> The path at the step's start: speed, components of the direction of delta, rho^chi, rho, 1 - rho^beta_r, and exp(-x)
   !> of an axis.
   integer, parameter :: l_speed = 39, l_node_along = 40, l_node_across = 41, l_rho_chi = 42, l_rho = 43, l_left = 44, l_decay = 45
-  integer, parameter :: n_fields = 45
+  integer, parameter :: l_error = 46 !< of the segment in one step, where that was accepted (short.f90)
+  integer, parameter :: n_fields = 46
 
   !> Tags: kind of path, as in delta_path.f90, what became of an attempted step, and whether the segment has been tried in one
   !> step (short.f90). As wide as a field, so that they fill masks without conversion.
@@ -48,6 +44,8 @@ module umat_batch_lanes
   real(real64), parameter :: nothing = 1.0e-290_real64
   !> A path further out is left to the scalar update.
   real(real64), parameter :: largest_x = 600.0_real64
+  !> Pressures below this part of h_s, or of the size of stress, are left to the scalar update.
+  real(real64), parameter :: smallest_pressure = 1.0e-20_real64, smallest_share = 1.0e-12_real64
   !> Reach of the series in series.inc.
   real(real64), parameter :: reach_of_exp = 0.25_real64, reach_of_log = 0.125_real64
-end module umat_batch_lanes
+end module umat_lanes

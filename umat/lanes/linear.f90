@@ -1,11 +1,12 @@
 !> The rate of stress of many points side by side, linear in stress and void ratio about the start of a step: sensitivities
 !> in wolffersdorff.f90, change_with_state in variation.f90.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
-module umat_batch_linear_portable
+!> Compiled once per instruction set and once for one lane, each time as a module of its own name (kernel.cmake).
+module umat_lanes_linear_portable
   use, intrinsic :: iso_fortran_env, only: real64
-  use umat_batch_rate_portable, only: origin_type
-  use umat_batch_lanes
+  use umat_lanes_rate_portable, only: origin_type
+  use umat_lanes
+  use umat_many_lanes, only: width
   use umat_material, only: material_type
   use umat_wolffersdorff, only: isotropic
   implicit none
@@ -68,8 +69,8 @@ real(wp) :: n, alpha, beta, e_d0, e_i0, steepness, d1, d2, d3, d4, d5, d6, squar
       by_root = 0.5_wp / sqrt(base)
       ! d product = -18 (dir dir):d - 2 product/size dir:d.
       on_square = 18.0_wp * (2.0_wp - 3.0_wp * square) * quotient**2 * by_root
-      on_direction = ((0.75_wp - 6.0_wp * quotient) * size + (2.0_wp - 3.0_wp * square) * quotient**2 * 2.0_wp * product * inverse) * &
-                     by_root - sqrt(0.375_wp)
+      on_direction = ((0.75_wp - 6.0_wp * quotient) * size + &
+                      (2.0_wp - 3.0_wp * square) * quotient**2 * 2.0_wp * product * inverse) * by_root - sqrt(0.375_wp)
       on_direction = merge(on_direction, 0.0_wp, size > isotropic)
       on_square = merge(on_square, 0.0_wp, size > isotropic)
       trace = third ! of dir dir over 3
@@ -139,4 +140,4 @@ real(wp) :: n, alpha, beta, e_d0, e_i0, steepness, d1, d2, d3, d4, d5, d6, squar
     end do
   end subroutine add_linear
 
-end module umat_batch_linear_portable
+end module umat_lanes_linear_portable

@@ -3,10 +3,11 @@
 !> Pressure and void ratio change little within a step. Their powers follow by series from those at the step's start;
 !> lanes for which the series do not reach are done in full.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
-module umat_batch_rate_portable
+!> Compiled once per instruction set and once for one lane, each time as a module of its own name (kernel.cmake).
+module umat_lanes_rate_portable
   use, intrinsic :: iso_fortran_env, only: real64
-  use umat_batch_lanes
+  use umat_lanes
+  use umat_many_lanes, only: n_lanes, width
   use umat_border, only: reach_of_border
   use umat_material, only: material_type
   implicit none
@@ -204,7 +205,8 @@ contains
       inside = merge(1.0_wp, 0.0_wp, min((2.0_wp * third - margin) * ratio**2 - square, &
                            cube * third - ratio * (square * (1.0_wp / 6) - ratio**2 * (1.0_wp / 27 - margin)) - &
                                          least * per_p * ratio**2) > 0.0_wp)
-      inside = merge(inside, 0.0_wp, min(ratio - max(smallest_ratio, smallest * per_p), min(largest * per_p, 1.0_wp / smallest_ratio) - ratio) > 0.0_wp)
+      inside = merge(inside, 0.0_wp, min(ratio - max(smallest_ratio, smallest * per_p), &
+                                         min(largest * per_p, 1.0_wp / smallest_ratio) - ratio) > 0.0_wp)
       bad(i) = max(bad(i), 1.0_wp - inside)
       ratio = chosen(inside, ratio, 1.0_wp)
       ! sqrt(2) tan(psi) cos(3 theta) = -6 cube/square is multiplied out; the isotropic axis has none.
@@ -322,4 +324,4 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
 
   include 'series.inc'
 
-end module umat_batch_rate_portable
+end module umat_lanes_rate_portable

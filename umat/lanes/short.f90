@@ -1,21 +1,44 @@
-!> Short legs of many points side by side, each in one step: short_leg.f90, written without branches.
+!> A leg that is short against |delta|, in one step: two evaluations of L and N, and no search for where the step ends.
 !>
-!> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
-module umat_batch_short_portable
+!> The path of delta is a power series in the length of strain, the same for loading, for a reversal and for a delta that
+!> stays as it is. The stress is collocated at Radau's nodes with the rate linear in stress and void ratio about the start.
+!> What the linear model leaves out grows like the square of the way and is evaluated once, at the last node. theory.md, section 4.
+!>
+!> Written without branches, for many points side by side and, with one lane, for a point alone (increment/short_leg.f90).
+!> Compiled once per instruction set and once for one lane, each time as a module of its own name (kernel.cmake).
+module umat_lanes_short_portable
   use, intrinsic :: iso_fortran_env, only: int64, real64
-  use umat_batch_linear_portable, only: slopes_type, slopes_at, add_linear
-  use umat_batch_rate_portable, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
-  use umat_batch_lanes
-  use umat_border, only: reach_of_border
+  use umat_border, only: part_of_pressure, reach_of_border
   use umat_from_zero, only: from_zero_type, from_zero, terms
+  use umat_lanes
+  use umat_lanes_linear_portable, only: slopes_type, slopes_at, add_linear
+  use umat_lanes_rate_portable, only: origin_type, origin_of_step, tensors_type, tensors_at, apply
+  use umat_many_lanes, only: n_lanes, width
   use umat_material, only: material_type
-  use umat_short_leg, only: order, farthest, longest_plain, c1, c2, to_end, to_node, of_square, quadrature
-  use umat_step, only: most_share, part_of_pressure
   implicit none
   private
-  public :: attempt_short
+  public :: attempt_short, farthest, longest_plain
 
   integer, parameter :: wp = real64
+  !> Highest power of the length in the series of the path.
+  integer, parameter :: order = 7
+  !> The series converges within |delta|; a leg that is longer than this part of it is not short.
+  real(wp), parameter :: farthest = 0.35_wp
+  !> Longest leg of the plain model [strain].
+  real(wp), parameter :: longest_plain = 3.0e-5_wp
+
+  real(wp), parameter :: root = sqrt(6.0_wp)
+  !> Radau's nodes; the start is the third.
+  real(wp), parameter :: c1 = (6.0_wp - root) / 10.0_wp, c2 = (6.0_wp + root) / 10.0_wp
+  !> Weights of the start and the two nodes in the integrals over the leg and up to each node.
+  real(wp), parameter :: to_end(0:2) = [1.0_wp / 9.0_wp, (16.0_wp + root) / 36.0_wp, (16.0_wp - root) / 36.0_wp]
+  real(wp), parameter :: to_node(0:2, 2) = reshape([ &
+        (9.0_wp + root) / 75.0_wp, (24.0_wp + root) / 120.0_wp, (168.0_wp - 73.0_wp * root) / 600.0_wp, &
+        (9.0_wp - root) / 75.0_wp, (168.0_wp + 73.0_wp * root) / 600.0_wp, (24.0_wp - root) / 120.0_wp], [3, 2])
+  !> Integral over the leg of what is 1 at the last node and grows like the square of the way.
+  real(wp), parameter :: of_square = 1.0_wp / (3.0_wp * c2**2)
+  !> What the nodes leave out: this times the second power of the rate's polynomial times the third power of how the powers fall.
+  real(wp), parameter :: quadrature = 1.0e-3_wp
   !> Stands for a size that vanishes in a divisor.
   real(wp), parameter :: tiny_size = 1.0e-70_wp
 
@@ -31,6 +54,7 @@ module umat_batch_short_portable
 contains
 
   !> Try legs that begin in one step each.
+  !> @param tolerance of a leg, relative
   !> @param n     number of lanes, a multiple of width; lanes 1 to n are about to begin a leg, or decided already
   !> @param lanes in: start of the leg; out: end of it, where the step was accurate enough: outcome_segment_done
   pure subroutine attempt_short(m, tolerance, n, lanes, tags)
@@ -41,20 +65,27 @@ contains
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     type(operands_type) :: o
     type(from_zero_type) :: series
+    logical :: known
     integer :: b
-    if (m%intergranular) series = from_zero(m)
+    known = .false.
     do b = 0, n - 1, width
+      tags(b + 1:b + width, t_short) = short_tried
       if (m%intergranular) then
         call follow_delta(m, b, lanes, tags, o)
-        if (any(o%from_zero > half)) call follow_from_zero(m, series, b, lanes, o)
+        if (any(o%from_zero > half)) then
+          if (.not. known) series = from_zero(m)
+          known = .true.
+          call follow_from_zero(m, series, b, lanes, o)
+        end if
       else
         call plain_operands(b, lanes, o)
       end if
-      call move_stress(m, most_share * tolerance, b, o, lanes, tags)
+      if (all(o%error > tolerance)) cycle
+      call move_stress(m, tolerance, b, o, lanes, tags)
     end do
   end subroutine attempt_short
 
-  !> The path of delta as a power series; follow_delta in short_leg.f90.
+  !> delta along the leg, as a power series in the length of strain; theory.md Eqs. (17b).
   !> @param b lanes b + 1 to b + width
   pure subroutine follow_delta(m, b, lanes, tags, o)
     type(material_type), intent(in) :: m
@@ -179,7 +210,10 @@ contains
     end do
   end subroutine follow_delta
 
-  !> The same in lanes where delta starts from zero; follow_from_zero in short_leg.f90. Other lanes stay as they are.
+  !> The same in lanes where delta starts from zero; theory.md Eqs. (17c). Other lanes stay as they are.
+  !>
+  !> rho^chi is no polynomial there: at the nodes stands the parabola through zero that has its integral, and the integral of its
+  !> product with the place.
   pure subroutine follow_from_zero(m, series, b, lanes, o)
     type(material_type), intent(in) :: m
     type(from_zero_type), intent(in) :: series
@@ -260,7 +294,7 @@ contains
     o%error = merge(0.0_wp, huge(1.0_wp), lanes(b + 1:b + width, l_length) <= longest_plain)
   end subroutine plain_operands
 
-  !> Change of stress over the leg; move_stress in short_leg.f90. Accept the step or leave the lane as it was.
+  !> Change of stress over the leg. Accept the step or leave the lane as it was.
   pure subroutine move_stress(m, tolerance, b, o, lanes, tags)
     type(material_type), intent(in) :: m
     real(wp), intent(in) :: tolerance
@@ -319,6 +353,8 @@ contains
                                       2.0_wp * (rest(i, 4)**2 + rest(i, 5)**2 + rest(i, 6)**2))
    dev = sqrt((origin%h%that(i, 1) - third)**2 + (origin%h%that(i, 2) - third)**2 + (origin%h%that(i, 3) - third)**2 + &
                  2.0_wp * (origin%h%that(i, 4)**2 + origin%h%that(i, 5)**2 + origin%h%that(i, 6)**2))
+      ! A second evaluation would change the result by about theta times what the first did. Where the rate is not smooth the
+      ! first itself is larger than theta^3 tells; next to the isotropic axis F is a cone.
       left = left * min(1.0_wp, max(theta, left / theta**2, 0.5_wp * theta / max(dev, theta * theta)))
       bend = (1.0_wp / (c2 - c1)) * scale * sqrt(f(i, 1, 2)**2 + f(i, 2, 2)**2 + f(i, 3, 2)**2 + &
                                                  2.0_wp * (f(i, 4, 2)**2 + f(i, 5, 2)**2 + f(i, 6, 2)**2))
@@ -334,11 +370,11 @@ contains
         lanes(b + i, l_stress - 1 + j) = chosen(accepted, stress(j), lanes(b + i, l_stress - 1 + j))
         lanes(b + i, l_delta - 1 + j) = chosen(accepted, o%delta(i, j), lanes(b + i, l_delta - 1 + j))
       end do
+      lanes(b + i, l_error) = error
       ! The evaluation at the start is counted where the leg begins by other means.
       lanes(b + i, l_evaluations) = lanes(b + i, l_evaluations) + accepted + &
                                     going * merge(1.0_wp, 0.0_wp, o%error(i) <= tolerance)
       tags(b + i, t_outcome) = merge(outcome_segment_done, tags(b + i, t_outcome), accepted > half)
-      tags(b + i, t_short) = short_tried
     end do
   end subroutine move_stress
 
@@ -351,4 +387,4 @@ contains
 
   include 'series.inc'
 
-end module umat_batch_short_portable
+end module umat_lanes_short_portable

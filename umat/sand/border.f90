@@ -15,6 +15,8 @@ module umat_border
 
   !> Largest compression that is seen as more than it is, over the confinement.
   real(wp), parameter, public :: reach_of_border = 2.0_wp
+  !> Part of -tr(T - p_t 1) below which the size of the stress says nothing; below 1/sqrt(3), so that it acts with p_t alone.
+  real(wp), parameter, public :: part_of_pressure = 0.5_wp
   !> Range of -tr T in which N fades out, over the confinement.
   real(wp), parameter :: width = 3.0_wp * (reach_of_border - 1.0_wp)
 
