@@ -1,4 +1,5 @@
-# A part of the kernels under the names of an instruction set: `portable` in the names of its modules gives way. `single`: for one lane.
+# A part of the kernels under the names of an instruction set, or, for one lane, `single`: `portable` in the names of its
+# modules gives way.
 #   cmake -DSOURCE=step.f90 -DINSTRUCTIONS=avx2 -DOUTPUT=step_avx2.f90 -P kernel.cmake
 file(READ ${SOURCE} text)
 string(REPLACE "_portable" "_${INSTRUCTIONS}" text "${text}")
