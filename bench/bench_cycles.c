@@ -32,8 +32,8 @@ static double cpu(void) { return (double)clock() / CLOCKS_PER_SEC; }
 static void time_cycles(const char *name, double K, double amplitude, double by_stress, long count, double tolerance) {
   const double s = 127.0, lateral = 2.0 * s * K / (1.0 + K);
   hypofab_material material;
-  hypofab_sand("hochstetten", &material);
-  const hypofab_state state = {{-lateral, lateral - 2.0 * s, -s, 0, 0, 0}, {0}, 0.7};
+  hypofab_material_built_in("hochstetten", &material);
+  const hypofab_state state = {{-lateral, lateral - 2.0 * s, -s, 0, 0, 0}, {[6] = 0.7}};
   const hypofab_argument arguments[] = {{"axis", {1}}, {"normal", {2}}, {"drive", {by_stress}}};
   hypofab_step step = {0};
   hypofab_step_preset_with(&step, "constant_s_biaxial_compression", arguments, 3);

@@ -21,11 +21,11 @@ static void time_test(const char *what, int rows, double tolerance) {
   hypofab_material material;
   hypofab_fabric f;
   hypofab_initial_delta delta;
-  hypofab_sand("paper000", &material);
+  hypofab_material_built_in("paper000", &material);
   hypofab_fabric_from_tensor(fabric, &f);
-  hypofab_fabric_to_delta(&f, material.R, 0.05, &delta);
-  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.640};
-  memcpy(state.delta, delta.delta, sizeof state.delta);
+  hypofab_fabric_to_delta(&f, hypofab_memory_size(&material), 0.05, &delta);
+  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[6] = 0.640}};
+  memcpy(hypofab_memory(material.model, &state), delta.delta, sizeof delta.delta);
   hypofab_step step = {0};
   hypofab_step_preset(&step, "drained_triaxial_compression", 1, 0.01);
   step.until = (hypofab_mark){HYPOFAB_EPS_YY, -0.1};

@@ -20,8 +20,9 @@ static double *distances;
 
 static void time_probes(const char *what, hypofab_probe_options options, int repeats) {
   hypofab_material material;
-  hypofab_sand("paper000", &material);
-  const hypofab_state state = {{-100, -140, -80, 0, 0, 0}, {0, -0.9 * material.R, 0, 0, 0, 0}, 0.642};
+  hypofab_material_built_in("paper000", &material);
+  const hypofab_state state = {{-100, -140, -80, 0, 0, 0},
+                               {0, -0.9 * hypofab_memory_size(&material), 0, 0, 0, 0, 0.642}};
   hypofab_subspace space;
   hypofab_subspace_principal(NULL, &space);
   double best = 1e9, fitted = 1e9;

@@ -38,9 +38,10 @@ static double best_time(const hypofab_material *material, const hypofab_state *s
 static void time_test(const char *what, int rows, long cycles) {
   hypofab_material material;
   hypofab_variation variations[MOST];
-  hypofab_sand("hochstetten", &material);
-  for (int i = 0; i < MOST; i++) hypofab_variation_of(hypofab_variation_name(i), &material, &variations[i]);
-  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {-4e-5, -5e-5, -3e-5, 0, 0, 0}, 0.7};
+  hypofab_material_built_in("hochstetten", &material);
+  for (int i = 0; i < MOST; i++)
+    hypofab_variation_of(hypofab_variation_name(material.model, i), &material, &variations[i]);
+  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {-4e-5, -5e-5, -3e-5, 0, 0, 0, 0.7}};
   hypofab_step step = {0};
   hypofab_step_preset(&step, cycles ? "undrained_triaxial_compression" : "drained_triaxial_compression", 2, 0.01);
   step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.1};

@@ -53,11 +53,22 @@ void curve_delta_direction(const plan *p, double direction[6]) {
   for (int i = 0; i < 6; i++) direction[i] = i < 3 ? factor * chosen[i] / length : 0.0;
 }
 
+void curve_remember(const plan *p, const hypofab_model *model, double size, hypofab_state *state) {
+  const int memory = hypofab_model_describe(model)->memory;
+  double direction[6];
+  if (memory < 0) return;
+  curve_delta_direction(p, direction);
+  for (int i = 0; i < 6; i++) state->variable[memory + i] = size * direction[i];
+}
+
 hypofab_state curve_start(const plan *p, const hypofab_material *material, double void_ratio) {
   const hypofab_laboratory_test *test = p->test;
-  hypofab_state state = {.stress = {-test->sigma3, -test->sigma3, -test->sigma1}, .void_ratio = void_ratio};
-  curve_delta_direction(p, state.delta);
-  for (int i = 0; i < 6; i++) state.delta[i] *= material->m_R > 0.5 ? material->R : 0.0;
+  hypofab_state state;
+  hypofab_state_start(material->model, &state);
+  state.stress[0] = state.stress[1] = -test->sigma3;
+  state.stress[2] = -test->sigma1;
+  *hypofab_void_ratio(material->model, &state) = void_ratio;
+  curve_remember(p, material->model, hypofab_memory_size(material), &state);
   return state;
 }
 

@@ -56,6 +56,9 @@ double *curve_gradient_at(const curve *c, int vertex, int parameter);
 /** Direction of the intergranular strain at the start, of unit length; 0 without any. */
 void curve_delta_direction(const plan *p, double direction[6]);
 
+/** Give a state the intergranular strain of the start of a test. @param size its norm */
+void curve_remember(const plan *p, const hypofab_model *model, double size, hypofab_state *state);
+
 /** State at the start of a test. */
 hypofab_state curve_start(const plan *p, const hypofab_material *material, double void_ratio);
 

@@ -103,6 +103,7 @@ static void exact(const hypofab_calibration_problem *problem, const plan *p, int
   hypofab_material material;
   double void_ratio;
   unknowns_apply(problem, values, test, &material, &void_ratio);
+  const hypofab_model_info *info = hypofab_model_describe(material.model);
   const hypofab_state initial = curve_start(p, &material, void_ratio);
   hypofab_variation variations[HYPOFAB_MAX_FREE];
   reception r = {.p = p, .c = c};
@@ -110,11 +111,9 @@ static void exact(const hypofab_calibration_problem *problem, const plan *p, int
     if (problem->parameters[j].index < 0 && problem->parameters[j].test != test) continue;
     hypofab_variation *v = &variations[r.n];
     *v = (hypofab_variation){0};
-    v->initial.void_ratio = unknowns_direction(problem, j, test, &v->material);
-    if (v->material.R != 0.0 && material.m_R > 0.5) {
-      curve_delta_direction(p, v->initial.delta);
-      for (int i = 0; i < 6; i++) v->initial.delta[i] *= v->material.R;
-    }
+    v->initial.variable[info->void_ratio] = unknowns_direction(problem, j, test, v->parameter);
+    if (hypofab_memory_size(&material) > 0.0 && v->parameter[info->memory_parameter] != 0.0)
+      curve_remember(p, material.model, v->parameter[info->memory_parameter], &v->initial);
     r.parameter[r.n++] = j;
   }
   const hypofab_test_options run = curve_options(options);

@@ -6,33 +6,21 @@
 
 #include "base/message.h"
 
-/* Positions in hypofab_material. */
-enum { PHI_C, P_T, H_S, N_EXPONENT, E_D0, E_C0, E_I0, ALPHA, BETA, M_R, M_T, R_SIZE, BETA_R, CHI, K_W, E_0 };
-
 /* A parameter whose bounds are further apart than this ratio is sought by its logarithm. */
 static const double log_ratio = 20.0;
 /* A value this close to a bound, as a share of their distance, is at it. */
 static const double bound_share = 1e-3;
 
-/* Ranges that hold the published sands with room to spare; h_s in kPa. */
-static const struct bounds {
-  double lower, upper;
-} usual[HYPOFAB_N_PARAMETERS] = {
-    [PHI_C] = {20, 45},  [H_S] = {1e4, 1e8},  [N_EXPONENT] = {0.05, 0.8}, [E_D0] = {0.2, 1.0},
-    [E_C0] = {0.4, 1.6}, [E_I0] = {0.5, 2.0}, [ALPHA] = {0.01, 1.0},      [BETA] = {0.1, 5.0},
-    [M_R] = {1.0, 15.0}, [M_T] = {1.0, 10.0}, [R_SIZE] = {1e-5, 5e-4},    [BETA_R] = {0.02, 2.0},
-    [CHI] = {0.2, 20.0}};
-
-hypofab_status hypofab_calibration_bounds(int index, double kpa, double *lower, double *upper) {
-  if (index < 0 || index >= HYPOFAB_N_PARAMETERS || usual[index].upper == 0.0)
+hypofab_status hypofab_calibration_bounds(const hypofab_model *model, int index, double kpa, double *lower,
+                                          double *upper) {
+  hypofab_parameter_info info;
+  if (hypofab_model_parameter(model, index, &info) || info.usual[1] == 0.0)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "parameter number %d cannot be free; expected one of the model's", index);
-  const double factor = index == H_S ? kpa : 1.0;
-  *lower = factor * usual[index].lower;
-  *upper = factor * usual[index].upper;
+  const double factor = strcmp(info.unit, "stress") == 0 ? kpa : 1.0;
+  *lower = factor * info.usual[0];
+  *upper = factor * info.usual[1];
   return HYPOFAB_OK;
 }
-
-static double *number(hypofab_material *material, int index) { return (double *)material + index; }
 
 static int is_log(const hypofab_free_parameter *p) { return p->lower > 0.0 && p->upper > log_ratio * p->lower; }
 
@@ -69,7 +57,7 @@ void unknown_name(const hypofab_calibration_problem *problem, int j, char *name,
   hypofab_parameter_info info;
   if (p->index < 0)
     snprintf(name, size, "e(%s)", problem->tests[p->test].name);
-  else if (!hypofab_parameter_describe(p->index, &info))
+  else if (!hypofab_model_parameter(problem->material.model, p->index, &info))
     snprintf(name, size, "%s", info.name);
 }
 
@@ -79,7 +67,8 @@ static hypofab_status check_parameter(const hypofab_calibration_problem *problem
   if (p->index < 0 && (p->test < 0 || p->test >= problem->n_tests))
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "a free void ratio is that of test number %d; expected 0 to %d", p->test,
                         problem->n_tests - 1);
-  hypofab_status status = p->index < 0 ? HYPOFAB_OK : hypofab_calibration_bounds(p->index, 1.0, &lower, &upper);
+  hypofab_status status =
+      p->index < 0 ? HYPOFAB_OK : hypofab_calibration_bounds(problem->material.model, p->index, 1.0, &lower, &upper);
   if (status) return status;
   char name[128];
   unknown_name(problem, j, name, sizeof name);
@@ -88,8 +77,9 @@ static hypofab_status check_parameter(const hypofab_calibration_problem *problem
                         "%s starts at %g between the bounds %g and %g; expected lower < start < "
                         "upper",
                         name, p->start, p->lower, p->upper);
-  if ((p->index == E_D0 && problem->ratio[0] > 0.0) || (p->index == E_I0 && problem->ratio[1] > 0.0))
-    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%s is free and kept at a ratio to e_c0; expected one of both", name);
+  if (p->index >= 0 && problem->ratio[p->index] > 0.0)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%s is free and kept at a ratio to another one; expected one of both",
+                        name);
   for (int k = 0; k < j; k++)
     if (problem->parameters[k].index == p->index && (p->index >= 0 || problem->parameters[k].test == p->test))
       return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%s is free twice; expected it once", name);
@@ -97,7 +87,9 @@ static hypofab_status check_parameter(const hypofab_calibration_problem *problem
 }
 
 hypofab_status unknowns_check(const hypofab_calibration_problem *problem) {
-  if (!problem || problem->n_tests < 1 || !problem->tests)
+  if (!problem || !problem->material.model)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "a calibration without a model; expected a material of one");
+  if (problem->n_tests < 1 || !problem->tests)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "a calibration without tests; expected one or more");
   if (problem->n_parameters < 1 || problem->n_parameters > HYPOFAB_MAX_FREE || !problem->parameters)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%d free parameters; expected 1 to %d", problem->n_parameters,
@@ -109,10 +101,13 @@ hypofab_status unknowns_check(const hypofab_calibration_problem *problem) {
   return HYPOFAB_OK;
 }
 
-/* e_d0 and e_i0 that follow e_c0. */
-static void follow(const hypofab_calibration_problem *problem, hypofab_material *material) {
-  if (problem->ratio[0] > 0.0) material->e_d0 = problem->ratio[0] * material->e_c0;
-  if (problem->ratio[1] > 0.0) material->e_i0 = problem->ratio[1] * material->e_c0;
+/* Parameters, or their changes, that follow their companions. */
+static void follow(const hypofab_calibration_problem *problem, double *value) {
+  const hypofab_model *model = problem->material.model;
+  const int n = hypofab_model_describe(model)->n_parameters;
+  hypofab_parameter_info info;
+  for (int i = 0; i < n && !hypofab_model_parameter(model, i, &info); i++)
+    if (problem->ratio[i] > 0.0 && info.companion >= 0) value[i] = problem->ratio[i] * value[info.companion];
 }
 
 void unknowns_apply(const hypofab_calibration_problem *problem, const double *values, int test,
@@ -123,18 +118,18 @@ void unknowns_apply(const hypofab_calibration_problem *problem, const double *va
     const hypofab_free_parameter *p = &problem->parameters[j];
     const double value = values ? values[j] : p->start;
     if (p->index >= 0)
-      *number(material, p->index) = value;
+      material->value[p->index] = value;
     else if (p->test == test)
       *void_ratio = value;
   }
-  follow(problem, material);
+  follow(problem, material->value);
 }
 
-double unknowns_direction(const hypofab_calibration_problem *problem, int j, int test, hypofab_material *material) {
+double unknowns_direction(const hypofab_calibration_problem *problem, int j, int test, double *parameter) {
   const hypofab_free_parameter *p = &problem->parameters[j];
-  *material = (hypofab_material){0};
+  for (int i = 0; i < HYPOFAB_MAX_PARAMETERS; i++) parameter[i] = 0.0;
   if (p->index < 0) return p->test == test ? 1.0 : 0.0;
-  *number(material, p->index) = 1.0;
-  follow(problem, material);
+  parameter[p->index] = 1.0;
+  follow(problem, parameter);
   return 0.0;
 }

@@ -32,10 +32,10 @@ void unknowns_apply(const hypofab_calibration_problem *problem, const double *va
 
 /**
  * @brief How material and void ratio of a test change with free parameter j.
- * @param material filled: derivative of each parameter
+ * @param parameter filled: derivative of each parameter
  * @return derivative of the void ratio at the start
  */
-double unknowns_direction(const hypofab_calibration_problem *problem, int j, int test, hypofab_material *material);
+double unknowns_direction(const hypofab_calibration_problem *problem, int j, int test, double *parameter);
 
 /** Name of free parameter j: "h_s", "e(TMU02)". */
 void unknown_name(const hypofab_calibration_problem *problem, int j, char *name, size_t size);

@@ -1,8 +1,8 @@
 /* hypofab fit-c: the parameter c of the weight f(a) that matches given directional stiffnesses best. */
 #include <argp.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

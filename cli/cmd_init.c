@@ -98,9 +98,9 @@ int cmd_init(int argc, char **argv) {
     return CLI_BAD_INPUT;
   }
   hypofab_material material;
-  const hypofab_status status = hypofab_sand(arguments.sand, &material);
+  const hypofab_status status = hypofab_material_built_in(arguments.sand, &material);
   if (status) return cli_exit(status);
-  const int has_memory = material.m_R > 0.5;
+  const int has_memory = hypofab_memory_size(&material) > 0.0;
   if (!arguments.output) {
     print_deck(preset, arguments.sand, has_memory, stdout);
     return cli_finish_output();

@@ -20,7 +20,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
   switch (key) {
     case KEY_SAND: chosen->sand = text; return 0;
     case KEY_STRESS:
-      parse_tensor(state, "--stress", text, chosen->state.stress);
+      parse_tensor(state, "--stress", text, chosen->stress);
       chosen->has_stress = true;
       return 0;
     case KEY_PRESSURE: {
@@ -30,10 +30,10 @@ static error_t parse(int key, char *text, struct argp_state *state) {
       return 0;
     }
     case KEY_VOID_RATIO:
-      chosen->state.void_ratio = parse_number(state, "--void-ratio", text);
+      chosen->void_ratio = parse_number(state, "--void-ratio", text);
       chosen->has_void_ratio = true;
       return 0;
-    case KEY_DELTA: parse_tensor(state, "--delta", text, chosen->state.delta); return 0;
+    case KEY_DELTA: parse_tensor(state, "--delta", text, chosen->delta); return 0;
     case KEY_PLAIN: chosen->is_plain = true; return 0;
     case KEY_COMPRESSION: chosen->compression_positive = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
@@ -54,14 +54,16 @@ void state_options_check(struct argp_state *state, const state_options *options)
 }
 
 hypofab_status state_options_resolve(const state_options *options, hypofab_material *material, hypofab_state *state) {
-  hypofab_status status = hypofab_sand(options->sand, material);
+  hypofab_status status = hypofab_material_built_in(options->sand, material);
   if (status) return status;
-  if (options->is_plain) material->m_R = 0.0;
+  if (options->is_plain) hypofab_memory_off(material);
   const double sign = options->compression_positive ? -1.0 : 1.0;
-  *state = options->state;
+  hypofab_state_start(material->model, state);
+  double *delta = hypofab_memory(material->model, state);
+  *hypofab_void_ratio(material->model, state) = options->void_ratio;
   for (int i = 0; i < 6; i++) {
-    state->stress[i] *= sign;
-    state->delta[i] *= sign;
+    state->stress[i] = sign * options->stress[i];
+    if (delta) delta[i] = sign * options->delta[i];
     if (options->pressure > 0.0) state->stress[i] = i < 3 ? -options->pressure : 0.0;
   }
   return hypofab_state_check(material, state);

@@ -14,8 +14,8 @@
 typedef struct state_options {
   const char *sand; /**< NULL: no state on the command line */
   bool has_stress, has_void_ratio, is_plain, compression_positive;
-  double pressure;     /**< of --p; 0: not given */
-  hypofab_state state; /**< in the sign of the command line */
+  double pressure;                        /**< of --p; 0: not given */
+  double stress[6], delta[6], void_ratio; /**< in the sign of the command line */
 } state_options;
 
 /** Child parser for argp; its input is a state_options. */

@@ -68,7 +68,7 @@ typedef struct hypofab_laboratory_test {
 
 /** A quantity to be found: a material parameter, or the void ratio at the start of one test. */
 typedef struct hypofab_free_parameter {
-  int index;           /**< 0 .. HYPOFAB_N_PARAMETERS - 1; -1: void ratio */
+  int index;           /**< 0 .. n_parameters - 1 of the model; -1: void ratio */
   int test;            /**< whose void ratio */
   double start;        /**< lower < start < upper */
   double lower, upper; /**< it stays between them */
@@ -77,13 +77,14 @@ typedef struct hypofab_free_parameter {
 /** Most free parameters. */
 #define HYPOFAB_MAX_FREE 24
 
-/** Bounds that calibrations use unless told otherwise: sands, stress in the unit of `material.h_s` = kPa * factor. */
-hypofab_status hypofab_calibration_bounds(int index, double kpa, double *lower, double *upper);
+/** Bounds that calibrations use unless told otherwise: the usual range, stresses in the unit kPa * factor. */
+hypofab_status hypofab_calibration_bounds(const hypofab_model *model, int index, double kpa, double *lower,
+                                          double *upper);
 
 /** Laboratory tests and what is to be found from them. */
 typedef struct hypofab_calibration_problem {
-  hypofab_material material; /**< parameters that are not free */
-  double ratio[2];           /**< where > 0: e_d0/e_c0 and e_i0/e_c0 are kept at these */
+  hypofab_material material;            /**< parameters that are not free */
+  double ratio[HYPOFAB_MAX_PARAMETERS]; /**< where > 0: a parameter is kept at this ratio to its companion */
   int n_tests;
   const hypofab_laboratory_test *tests;
   int n_parameters;
@@ -185,20 +186,22 @@ typedef struct hypofab_index_tests {
   double e_max;  /**< void ratio of loosest packing */
 } hypofab_index_tests;
 
-/** Parameters estimated without any fit, in the order of hypofab_material; NaN where nothing says anything. */
+/** Parameters estimated without any fit, in the order of the model; NaN where nothing says anything. */
 typedef struct hypofab_direct_estimate {
-  double value[HYPOFAB_N_PARAMETERS];
-  char source[HYPOFAB_N_PARAMETERS][160]; /**< from what, in words; "" where there is no value */
+  double value[HYPOFAB_MAX_PARAMETERS];
+  char source[HYPOFAB_MAX_PARAMETERS][160]; /**< from what, in words; "" where there is no value */
 } hypofab_direct_estimate;
 
 /**
- * @brief Direct estimates after Herle and Gudehus (1999): where a fit may begin (docs/calibration.md states each).
+ * @brief Direct estimates, for the sand after Herle and Gudehus (1999): where a fit may begin (docs/calibration.md
+ * states each).
  * @param index    NULL: nothing is known
  * @param tests    n_tests laboratory tests
- * @param estimate filled; p_t, K_w, e_0 and the intergranular parameters are NaN
+ * @param estimate filled; for the sand p_t, K_w, e_0 and the intergranular parameters are NaN; all of them for a model
+ *                 without direct estimates
  * @return HYPOFAB_BAD_ARGUMENT for index tests that contradict each other
  */
-hypofab_status hypofab_estimate_directly(const hypofab_index_tests *index, int n_tests,
+hypofab_status hypofab_estimate_directly(const hypofab_model *model, const hypofab_index_tests *index, int n_tests,
                                          const hypofab_laboratory_test *tests, hypofab_direct_estimate *estimate);
 
 /* --------------------------------------------------------- calibration files */

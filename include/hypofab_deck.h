@@ -73,14 +73,21 @@ hypofab_status hypofab_study_run(const hypofab_study *study, const char *directo
  * @param sink    receives the rows, in the deck's sign
  * @param watch   as hypofab_test_options.watch; NULL when not wanted
  * @param user    handed to sink and watch
- * @param columns set to the number of quantities that are wanted in its file: HYPOFAB_FIRST_STABILITY or
- *                HYPOFAB_N_QUANTITIES; NULL when not wanted
  * @param outcome as hypofab_test_run, tension positive; NULL when not wanted
  * @return 0; 1..99 when the test stopped early, as hypofab_test_run
  */
 hypofab_status hypofab_study_test_run(const hypofab_study *study, int index, hypofab_row_sink sink,
-                                      int (*watch)(int step, double done, void *user), void *user, int *columns,
+                                      int (*watch)(int step, double done, void *user), void *user,
                                       hypofab_test_outcome *outcome);
+
+/**
+ * @brief The quantities in the file of a test, in the order of its columns.
+ * @return their number; 0 for a test that does not exist
+ */
+int hypofab_study_columns(const hypofab_study *study, int test, hypofab_quantity column[HYPOFAB_N_QUANTITIES]);
+
+/** The model of a test; NULL for a test that does not exist. */
+const hypofab_model *hypofab_study_model(const hypofab_study *study, int test);
 
 /** Compute every envelope of a study and write `DIR/<envelope>.csv` each. Arguments as hypofab_study_run. */
 hypofab_status hypofab_study_envelopes(const hypofab_study *study, const char *directory, hypofab_progress progress,

@@ -81,14 +81,45 @@ typedef enum hypofab_quantity {
   HYPOFAB_BAND_ANGLE,     /**< between the normal and the most compressive principal stress [deg] */
   HYPOFAB_BAND_DILATANCY, /**< [deg] */
   HYPOFAB_BOUND,          /**< |L^-1 N| of the plain model */
-  HYPOFAB_N_QUANTITIES
+  /* HYPOFAB_FIRST_NUMBER + k is number k of the state variables of a model that has further ones than intergranular
+   * strain and void ratio, which have their places above. */
+  HYPOFAB_FIRST_NUMBER,
+  HYPOFAB_N_QUANTITIES = HYPOFAB_FIRST_NUMBER + HYPOFAB_MAX_NUMBERS
 } hypofab_quantity;
 
-/** Column name of a quantity ("time", "eps_xx", ...); NULL when out of range. */
+/** Column name of a quantity ("time", "eps_xx", ...); NULL for the numbers of a model and when out of range. */
 const char *hypofab_quantity_name(hypofab_quantity quantity);
 
 /** The quantity of a column name, or HYPOFAB_N_QUANTITIES when there is none. */
 hypofab_quantity hypofab_quantity_find(const char *name);
+
+/** Room for the name of a quantity of a model. */
+#define HYPOFAB_QUANTITY_NAME_SIZE 64
+
+/**
+ * @brief Column name of a quantity of a model: as hypofab_quantity_name, or the name of a further state variable, with
+ * _x .. or _xx .. where it is a vector or a tensor.
+ * @param text room for it
+ * @return text, or NULL: the model has no such quantity
+ */
+const char *hypofab_model_quantity_name(const hypofab_model *model, hypofab_quantity quantity,
+                                        char text[HYPOFAB_QUANTITY_NAME_SIZE]);
+
+/** Unit of a quantity: "-", "stress", "deg", "time" or "stress^3"; NULL as hypofab_quantity_name. */
+const char *hypofab_quantity_unit(hypofab_quantity quantity);
+
+/** Does a quantity change its sign with the sign convention? Stress, strain, eps_v and delta do; p, q, t do not. */
+int hypofab_model_quantity_has_sign(const hypofab_model *model, hypofab_quantity quantity);
+
+/**
+ * @brief The quantities in the results of a test of a model, in the order of the columns of its table.
+ * @param stability non-zero: the measures of stability too, behind the others
+ * @return their number
+ */
+int hypofab_model_columns(const hypofab_model *model, int stability, hypofab_quantity column[HYPOFAB_N_QUANTITIES]);
+
+/** The quantity of a column name for a model, or HYPOFAB_N_QUANTITIES when it has none. */
+hypofab_quantity hypofab_model_quantity_find(const hypofab_model *model, const char *name);
 
 /** A quantity and a value: the end of a step, or a spacing. */
 typedef struct hypofab_mark {

@@ -135,8 +135,8 @@ typedef struct hypofab_probe_measures {
  *
  * The flow is the irrecoverable part where the probe was unloaded, else the whole response.
  */
-void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_state *state, const hypofab_answer *answer,
-                           hypofab_probe_measures *measures);
+void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_material *material, const hypofab_state *state,
+                           const hypofab_answer *answer, hypofab_probe_measures *measures);
 
 /** The ellipsoid (in a plane: ellipse) that is nearest to an envelope. */
 typedef struct hypofab_ellipsoid {

@@ -16,25 +16,25 @@ HYPOFAB_BEGIN
 /** The derivative with respect to one number x of all that a test starts from. Zero in a field: it does not depend on
  * x. */
 typedef struct hypofab_variation {
-  hypofab_material material; /**< of the parameters; those of K_w and e_0 are not used */
-  hypofab_state initial;     /**< of the initial state */
+  double parameter[HYPOFAB_MAX_PARAMETERS]; /**< of the parameters; those of the host's own are not used */
+  hypofab_state initial;                    /**< of the initial state */
   double water; /**< of ln(stiffness of the pore water) of the steps that have one (hypofab_step_pore_water) */
 } hypofab_variation;
 
-/** Name of a number that hypofab_variation_of knows (0-based), e.g. "phi_c", "void_ratio", "sig_xx"; NULL past the
- * last. */
-const char *hypofab_variation_name(int index);
+/** Name of a number that hypofab_variation_of knows for a model (0-based), e.g. "phi_c", "void_ratio", "sig_xx"; NULL
+ * past the last. */
+const char *hypofab_variation_name(const hypofab_model *model, int index);
 
 /**
  * @brief The variation of one parameter, or of one number of the initial state.
  *
- * Names: the parameters of the model ("phi_c" .. "chi", without e_0), the derivative being per unit of the parameter;
- * "K_w", of which the stiffness of pore water in all steps is taken to be a multiple; "void_ratio", "sig_xx" ..
- * "sig_yz" and "delta_xx" .. "delta_yz" of the initial state (tension positive); "p", which changes the isotropic part
- * of the initial stress, compression positive. Delta is kept when R varies: add its own derivative where delta follows
- * from R.
+ * Names: the parameters of the model (without those of the host), the derivative being per unit of the parameter;
+ * "K_w", of which the stiffness of pore water in all steps is taken to be a multiple; the stress "sig_xx" .. and the
+ * numbers of the state variables ("void_ratio", "delta_xx" ..) of the initial state (tension positive); "p", which
+ * changes the isotropic part of the initial stress, compression positive. Delta is kept when R varies: add its own
+ * derivative where delta follows from R.
  * @param name      one of hypofab_variation_name
- * @param material  K_w alone is looked at, and for "K_w" alone; may be NULL otherwise
+ * @param material  its model says what is known; of its parameters K_w alone is looked at, and for "K_w" alone
  * @param variation filled
  * @return HYPOFAB_BAD_ARGUMENT for an unknown name or a K_w of zero
  */
@@ -74,34 +74,6 @@ hypofab_status hypofab_test_sensitivities(const hypofab_material *material, cons
                                           int n_variations, const hypofab_variation *variations,
                                           hypofab_sensitivity_sink sink, void *user, hypofab_test_outcome *outcome);
 
-/**
- * Derivatives of the rates of stress and intergranular strain at a state and a stretching. Of every array by_x, by_x[j]
- * is the derivative with respect to component (or parameter) j: six tensor components. A shear component of a tensor
- * stands for both of its places (xy and yx).
- */
-typedef struct hypofab_rate_derivatives {
-  double stress_by_stretching[6][6];                   /**< the stiffness of the branch [stress] */
-  double stress_by_stress[6][6];                       /**< [1/time] */
-  double stress_by_delta[6][6];                        /**< [stress/time] */
-  double stress_by_void_ratio[6];                      /**< [stress/time] */
-  double stress_by_parameter[HYPOFAB_N_PARAMETERS][6]; /**< in the order of hypofab_material */
-  double delta_by_stretching[6][6];                    /**< [-] */
-  double delta_by_delta[6][6];                         /**< [1/time] */
-  double delta_by_parameter[HYPOFAB_N_PARAMETERS][6];
-} hypofab_rate_derivatives;
-
-/**
- * @brief Derivatives of the rates on a given branch.
- *
- * On the isotropic axis, where the stress factor F has a cone, its slope is taken as zero, the mean over all
- * directions; at delta = 0 derivatives with respect to delta are zero.
- * @param branch HYPOFAB_LOADING or HYPOFAB_REVERSAL with intergranular strain, HYPOFAB_PLAIN without
- * @return HYPOFAB_OUT_OF_DOMAIN; HYPOFAB_BAD_ARGUMENT for a branch the material does not have
- */
-hypofab_status hypofab_rate_derivatives_at(const hypofab_material *material, const hypofab_state *state,
-                                           const double stretching[6], hypofab_branch branch,
-                                           hypofab_rate_derivatives *derivatives);
-
 /* ------------------------------------------------------------------ fabric */
 
 /**
@@ -138,14 +110,13 @@ hypofab_status hypofab_study_variation(const hypofab_study *study, int test, con
  * @param names      as hypofab_study_variation; derivatives come in this order
  * @param sink, user as hypofab_test_sensitivities; signs of row and derivatives are the deck's
  * @param watch      as hypofab_test_options.watch; NULL when not wanted
- * @param columns    as hypofab_study_test_run
  * @param outcome    tension positive; NULL when not wanted
  * @return as hypofab_test_sensitivities
  */
 hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int test, int n_names,
                                                 const char *const *names, hypofab_sensitivity_sink sink,
                                                 int (*watch)(int step, double done, void *user), void *user,
-                                                int *columns, hypofab_test_outcome *outcome);
+                                                hypofab_test_outcome *outcome);
 
 HYPOFAB_END
 

@@ -82,8 +82,9 @@ static json_t *estimates_object(const hypofab_calibration *c) {
   if (!c->estimated) return json_null();
   json_t *object = json_object();
   hypofab_parameter_info info;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
-    if (isfinite(c->estimate.value[i]) && !hypofab_parameter_describe(i, &info))
+  const hypofab_model *model = c->problem.material.model;
+  for (int i = 0; i < hypofab_model_describe(model)->n_parameters; ++i)
+    if (isfinite(c->estimate.value[i]) && !hypofab_model_parameter(model, i, &info))
       json_object_set_new(object, info.name,
                           json_pack("{s:f,s:s}", "value", c->estimate.value[i], "source", c->estimate.source[i]));
   return object;

@@ -41,7 +41,7 @@ typedef struct deck_lab_test {
 
 /** Bounds by parameter, in the order of hypofab_material. */
 typedef struct deck_bounds {
-  double *pair[HYPOFAB_N_PARAMETERS];
+  double *pair[HYPOFAB_MAX_PARAMETERS];
 } deck_bounds;
 
 typedef struct deck_ratios {

@@ -62,18 +62,21 @@ static void write_estimates(const hypofab_calibration *c, FILE *out) {
   hypofab_parameter_info info;
   if (!c->estimated) return;
   fputs("\n## Direct estimates\n\n| parameter | estimate | from |\n|---|---|---|\n", out);
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
-    if (isfinite(c->estimate.value[i]) && !hypofab_parameter_describe(i, &info))
+  const hypofab_model *model = c->problem.material.model;
+  for (int i = 0; i < hypofab_model_describe(model)->n_parameters; ++i)
+    if (isfinite(c->estimate.value[i]) && !hypofab_model_parameter(model, i, &info))
       fprintf(out, "| %s | %.5g | %s |\n", info.name, c->estimate.value[i], c->estimate.source[i]);
 }
 
 /* The material as a deck takes it. */
 static void write_material(const hypofab_calibration *c, FILE *out) {
-  const double *value = (const double *)&c->result.material;
+  const hypofab_model *model = c->result.material.model;
+  const double *value = c->result.material.value;
   hypofab_parameter_info info;
   fputs("\n## Material\n\n```yaml\nmaterials:\n  - name: calibrated\n    parameters:\n", out);
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
-    if (value[i] != 0.0 && !hypofab_parameter_describe(i, &info)) fprintf(out, "      %s: %.7g\n", info.name, value[i]);
+  for (int i = 0; i < hypofab_model_describe(model)->n_parameters; ++i)
+    if (value[i] != 0.0 && !hypofab_model_parameter(model, i, &info))
+      fprintf(out, "      %s: %.7g\n", info.name, value[i]);
   if (!study_has_intergranular(&c->result.material)) fputs("    intergranular: false\n", out);
   fputs("```\n", out);
 }

@@ -8,19 +8,21 @@
 #include "deck/calibration/calibration_resolve.h"
 #include "deck/resolve/resolve.h"
 
-/* Positions in hypofab_material. */
-enum { E_D0 = 4, E_C0 = 5, E_I0 = 6, LAST_OF_MODEL = 8, FIRST_INTERGRANULAR = 9, LAST_INTERGRANULAR = 13 };
 enum { MANY_ITERATIONS = 10000 };
 
 /* A start that is not the user's own is kept this share of the range away from the bounds. */
 static const double margin = 0.02;
 
-static double *parameter(hypofab_material *material, int index) { return (double *)material + index; }
+/* The model whose parameters are found. */
+static const hypofab_model *model_of(void) { return hypofab_model_at(0); }
 
-static const char *parameter_name(int index) {
-  hypofab_parameter_info info;
-  return hypofab_parameter_describe(index, &info) ? "?" : info.name;
+static hypofab_parameter_info describe(int index) {
+  hypofab_parameter_info info = {.name = "?"};
+  hypofab_model_parameter(model_of(), index, &info);
+  return info;
 }
+
+static int n_parameters(void) { return hypofab_model_describe(model_of())->n_parameters; }
 
 static const double *given_value(const hypofab_calibration *c, int index) {
   return c->given->parameters ? c->given->parameters->value[index] : NULL;
@@ -28,8 +30,9 @@ static const double *given_value(const hypofab_calibration *c, int index) {
 
 double calibration_friction(const hypofab_calibration *c) {
   hypofab_material material;
-  if (given_value(c, 0)) return *given_value(c, 0);
-  if (c->given->sand && !deck_sand(c->given->sand, c->unit, &material)) return material.phi_c;
+  const int phi_c = hypofab_model_parameter_find(model_of(), "phi_c");
+  if (given_value(c, phi_c)) return *given_value(c, phi_c);
+  if (c->given->sand && !deck_sand(c->given->sand, c->unit, &material)) return material.value[phi_c];
   if (c->given->index_tests && c->given->index_tests->repose) return *c->given->index_tests->repose;
   return 32.0; /* K0 = 0.47 */
 }
@@ -38,10 +41,10 @@ double calibration_friction(const hypofab_calibration *c) {
 static hypofab_status bounds_of(const hypofab_calibration *c, const deck_source *source, int index, double *lower,
                                 double *upper) {
   const double *pair = c->given->bounds ? c->given->bounds->pair[index] : NULL;
-  if (!pair) return hypofab_calibration_bounds(index, deck_kpa(c->unit), lower, upper);
-  hypofab_parameter_info info;
-  hypofab_status status = hypofab_parameter_describe(index, &info);
-  if (!status && !(pair[0] < pair[1] && pair[0] >= info.lower && pair[1] <= info.upper))
+  if (!pair) return hypofab_calibration_bounds(model_of(), index, deck_kpa(c->unit), lower, upper);
+  const hypofab_parameter_info info = describe(index);
+  hypofab_status status = HYPOFAB_OK;
+  if (!(pair[0] < pair[1] && pair[0] >= info.lower && pair[1] <= info.upper))
     status =
         deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("bounds.%s", info.name),
                     "[%g, %g], expected [lower, upper] within %g and %g", pair[0], pair[1], info.lower, info.upper);
@@ -57,48 +60,41 @@ static hypofab_status estimate(hypofab_calibration *c, const deck_source *source
     index.e_min = given->e_min ? *given->e_min : 0.0;
     index.e_max = given->e_max ? *given->e_max : 0.0;
   }
-  const hypofab_status status = hypofab_estimate_directly(&index, c->problem.n_tests, c->tests, &c->estimate);
+  const hypofab_status status =
+      hypofab_estimate_directly(model_of(), &index, c->problem.n_tests, c->tests, &c->estimate);
   c->estimated = true;
   return status ? deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("index_tests"), "%s", hypofab_last_message())
                 : HYPOFAB_OK;
-}
-
-/* Usual values of the intergranular strain (Hochstetten sand), where a file gives none. */
-static void usual_intergranular(hypofab_material *material) {
-  material->m_R = 5.0, material->m_T = 2.0, material->R = 1e-4, material->beta_r = 0.5, material->chi = 6.0;
 }
 
 /* Parameters of the file, then direct estimates, then the sand. */
 static hypofab_status find_start(hypofab_calibration *c, const deck_source *source, hypofab_material *start) {
   const deck_calibration *given = c->given;
   hypofab_status status = HYPOFAB_OK;
-  *start = (hypofab_material){0};
-  for (int i = 0; i <= LAST_OF_MODEL; ++i) *parameter(start, i) = NAN;
-  start->p_t = 0.0;
-  usual_intergranular(start);
+  hypofab_material_start(model_of(), start);
   if (given->sand) {
     status = deck_sand(given->sand, c->unit, start);
     if (status) return deck_refuse(source, status, deck_key_format("sand"), "%s", hypofab_last_message());
   }
   if (given->estimate ? *given->estimate : !given->sand) status = estimate(c, source);
   if (status) return status;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i) {
+  for (int i = 0; i < n_parameters(); ++i) {
     double lower, upper;
     if (c->estimated && isfinite(c->estimate.value[i])) {
-      *parameter(start, i) = c->estimate.value[i];
-      if (!hypofab_calibration_bounds(i, deck_kpa(c->unit), &lower, &upper))
-        *parameter(start, i) = fmin(upper, fmax(lower, c->estimate.value[i]));
+      start->value[i] = c->estimate.value[i];
+      if (!hypofab_calibration_bounds(model_of(), i, deck_kpa(c->unit), &lower, &upper))
+        start->value[i] = fmin(upper, fmax(lower, c->estimate.value[i]));
     }
-    if (given_value(c, i)) *parameter(start, i) = *given_value(c, i);
+    if (given_value(c, i)) start->value[i] = *given_value(c, i);
   }
-  for (int i = 0; i <= LAST_OF_MODEL; ++i)
-    if (isnan(*parameter(start, i)))
+  for (int i = 0; i < n_parameters(); ++i)
+    if (isnan(start->value[i]))
       return deck_refuse(
           source, HYPOFAB_BAD_FILE, deck_key_format("%s", given->parameters ? "parameters" : ""),
           "nothing tells a start of %s, expected it under 'parameters', a 'sand', or tests that it can be "
           "estimated from",
-          parameter_name(i));
-  if (given->intergranular && !*given->intergranular) start->m_R = 0.0;
+          describe(i).name);
+  if (given->intergranular && !*given->intergranular) hypofab_memory_off(start);
   return HYPOFAB_OK;
 }
 
@@ -110,10 +106,12 @@ static hypofab_status find_ratios(hypofab_calibration *c, const deck_source *sou
     if (!fine[i])
       return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("ratios.%s", i ? "e_i0" : "e_d0"), "%g, expected %s",
                          *ratio[i], i ? "1 or more times e_c0" : "a share of e_c0 between 0 and 1");
-    c->problem.ratio[i] = ratio[i] ? *ratio[i] : 0.0;
+    if (!ratio[i]) continue;
+    const int index = hypofab_model_parameter_find(model_of(), i ? "e_i0" : "e_d0");
+    double *value = c->problem.material.value;
+    c->problem.ratio[index] = *ratio[i];
+    value[index] = *ratio[i] * value[describe(index).companion];
   }
-  if (ratio[0]) c->problem.material.e_d0 = *ratio[0] * c->problem.material.e_c0;
-  if (ratio[1]) c->problem.material.e_i0 = *ratio[1] * c->problem.material.e_c0;
   return HYPOFAB_OK;
 }
 
@@ -132,23 +130,28 @@ static hypofab_status add(hypofab_calibration *c, const deck_source *source, dec
   return HYPOFAB_OK;
 }
 
+static hypofab_status refuse_name(const deck_source *source, deck_key key, const char *name) {
+  char known[512] = "";
+  size_t used = 0;
+  for (int i = 0; i < n_parameters() && used < sizeof known; ++i)
+    if (describe(i).usual[1] != 0.0)
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", describe(i).name);
+  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s', expected among %s", name, known);
+}
+
 static hypofab_status add_parameter(hypofab_calibration *c, const deck_source *source, unsigned entry) {
   const deck_key key = deck_key_format("free[%u]", entry);
   const char *name = c->given->free[entry];
-  int index = 0;
-  while (index < HYPOFAB_N_PARAMETERS && strcmp(parameter_name(index), name) != 0) ++index;
+  const int index = hypofab_model_parameter_find(model_of(), name);
   double lower, upper;
-  if (index == HYPOFAB_N_PARAMETERS || hypofab_calibration_bounds(index, 1.0, &lower, &upper))
-    return deck_refuse(source, HYPOFAB_BAD_FILE, key,
-                       "'%s', expected among phi_c, h_s, n, e_d0, e_c0, e_i0, alpha, "
-                       "beta, m_R, m_T, R, beta_r, chi",
-                       name);
+  if (index < 0 || hypofab_calibration_bounds(model_of(), index, 1.0, &lower, &upper))
+    return refuse_name(source, key, name);
   for (unsigned i = 0; i < entry; ++i)
     if (strcmp(c->given->free[i], name) == 0)
       return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is there twice, expected it once", name);
-  if ((index == E_D0 && c->problem.ratio[0] > 0.0) || (index == E_I0 && c->problem.ratio[1] > 0.0))
+  if (c->problem.ratio[index] > 0.0)
     return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is under 'ratios', too, expected one of both", name);
-  if (index >= FIRST_INTERGRANULAR && index <= LAST_INTERGRANULAR && !study_has_intergranular(&c->problem.material))
+  if (describe(index).role == HYPOFAB_OF_MEMORY && !study_has_intergranular(&c->problem.material))
     return deck_refuse(source, HYPOFAB_BAD_FILE, key,
                        "'%s', but the sand starts without intergranular strain, expected "
                        "m_R > 0.5 under 'parameters'",
@@ -156,7 +159,7 @@ static hypofab_status add_parameter(hypofab_calibration *c, const deck_source *s
   hypofab_status status = bounds_of(c, source, index, &lower, &upper);
   if (status) return status;
   const hypofab_free_parameter made = {
-      .index = index, .start = *parameter(&c->problem.material, index), .lower = lower, .upper = upper};
+      .index = index, .start = c->problem.material.value[index], .lower = lower, .upper = upper};
   return add(c, source, key, made, given_value(c, index) != NULL);
 }
 
@@ -166,7 +169,7 @@ static hypofab_status name_parameters(hypofab_calibration *c) {
   for (int j = 0; j < c->problem.n_parameters; ++j) {
     const hypofab_free_parameter *p = &c->parameters[j];
     if (p->index >= 0)
-      snprintf(c->names[j], sizeof *c->names, "%s", parameter_name(p->index));
+      snprintf(c->names[j], sizeof *c->names, "%s", describe(p->index).name);
     else
       snprintf(c->names[j], sizeof *c->names, "e(%.80s)", c->tests[p->test].name);
   }

@@ -38,15 +38,15 @@ typedef struct fit {
 
 static hypofab_status delta_at(const fit *one, unsigned index, double c, double delta[6]) {
   const study_state *state = &one->study->states[index];
-  memcpy(delta, state->initial.delta, sizeof state->initial.delta);
+  study_delta(one->study, state, delta);
   if (!state->has_fabric) return HYPOFAB_OK;
   hypofab_fabric fabric = state->fabric;
   hypofab_status status =
       one->corrected && fabric.contacts ? hypofab_fabric_correct(&fabric, -1.0, &fabric) : HYPOFAB_OK;
   hypofab_initial_delta map;
   if (!status)
-    status =
-        hypofab_fabric_to_delta_weighted(&fabric, one->study->materials[state->material].R, c, state->weight, &map);
+    status = hypofab_fabric_to_delta_weighted(&fabric, hypofab_memory_size(&one->study->materials[state->material]), c,
+                                              state->weight, &map);
   if (!status) memcpy(delta, map.delta, sizeof map.delta);
   return status;
 }

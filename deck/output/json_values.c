@@ -20,9 +20,9 @@ json_t *json_numbers(const double *value, int n, double factor) {
 json_t *json_of_material(const hypofab_material *material) {
   json_t *object = json_object();
   hypofab_parameter_info info;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
-    if (!hypofab_parameter_describe(i, &info))
-      json_object_set_new(object, info.name, json_number(((const double *)material)[i]));
+  const int n = hypofab_model_describe(material->model)->n_parameters;
+  for (int i = 0; i < n && !hypofab_model_parameter(material->model, i, &info); ++i)
+    json_object_set_new(object, info.name, json_number(material->value[i]));
   return object;
 }
 

@@ -48,12 +48,13 @@ static hypofab_status prepare(run *run, const study_series *series, probe_result
                           study->deck->tests[series->test].name, hypofab_last_message());
     result->state = outcome.state;
   }
+  double *delta = hypofab_memory(result->material.model, &result->state);
   if (!status && envelope->directions == STUDY_PRINCIPAL && envelope->frame != DECK_FRAME_XYZ)
-    status = hypofab_subspace_principal(
-        envelope->frame == DECK_FRAME_STRESS ? result->state.stress : result->state.delta, &result->space);
-  if (series->plain) {
-    result->material.m_R = 0;
-    memset(result->state.delta, 0, sizeof result->state.delta);
+    status = hypofab_subspace_principal(envelope->frame == DECK_FRAME_STRESS || !delta ? result->state.stress : delta,
+                                        &result->space);
+  if (series->plain && delta) {
+    hypofab_memory_off(&result->material);
+    memset(delta, 0, 6 * sizeof *delta);
   }
   return status;
 }

@@ -11,11 +11,18 @@ static json_t *tensors(const double (*tensor)[6], int n, double factor) {
   return array;
 }
 
-static json_t *state_object(const hypofab_state *state, double sign) {
+/* Stress and every state variable by its name. */
+static json_t *state_object(const hypofab_model *model, const hypofab_state *state, double sign) {
   json_t *object = json_object();
+  const int n = hypofab_model_describe(model)->n_variables;
+  hypofab_variable_info v;
   json_object_set_new(object, "stress", json_numbers(state->stress, 6, sign));
-  json_object_set_new(object, "delta", json_numbers(state->delta, 6, sign));
-  json_object_set_new(object, "void_ratio", json_number(state->void_ratio));
+  for (int i = 0; i < n && !hypofab_model_variable(model, i, &v); ++i) {
+    const double *number = &state->variable[v.place], factor = v.has_sign ? sign : 1.0;
+    json_object_set_new(
+        object, v.name,
+        v.kind == HYPOFAB_IS_SCALAR ? json_number(factor * *number) : json_numbers(number, (int)v.kind, factor));
+  }
   return object;
 }
 
@@ -39,7 +46,7 @@ static json_t *extreme_stiffness(const study_envelope *envelope, const probe_res
   const hypofab_answer *at = NULL;
   for (unsigned i = 0; i < envelope->probes; ++i) {
     hypofab_probe_measures m;
-    hypofab_probe_measure(envelope->options.imposed, &result->state, &result->answers[i], &m);
+    hypofab_probe_measure(envelope->options.imposed, &result->material, &result->state, &result->answers[i], &m);
     if (sense * m.stiffness > best) best = sense * m.stiffness, at = &result->answers[i];
   }
   if (!at) return json_null();
@@ -65,7 +72,7 @@ static json_t *series_object(const hypofab_study *study, unsigned envelope, unsi
   for (unsigned i = 0; result->answers && i < run->probes; ++i) answered += !result->answers[i].status;
   json_object_set_new(object, "answered", json_integer(answered));
   if (!result->answers) return object;
-  json_object_set_new(object, "probed", state_object(&result->state, sign));
+  json_object_set_new(object, "probed", state_object(result->material.model, &result->state, sign));
   json_object_set_new(object, "material", json_of_material(&result->material));
   json_object_set_new(object, "basis", tensors(result->space.basis, result->space.dimension, 1.0));
   json_object_set_new(object, "largest_stiffness", extreme_stiffness(run, result, 1.0, sign));

@@ -79,10 +79,12 @@ static row make_row(const hypofab_study *study, const study_envelope *envelope, 
     add_tensor(&row, sign, answer->irrecoverable);
     add_coordinates(&row, sign, &result->space, answer->irrecoverable);
   }
-  const double R = study_has_intergranular(&result->material) ? result->material.R : INFINITY;
-  add_coordinates(&row, sign / R, &result->space, result->state.delta);
+  const int memory = hypofab_model_describe(result->material.model)->memory;
+  const double none[6] = {0},
+               R = study_has_intergranular(&result->material) ? hypofab_memory_size(&result->material) : INFINITY;
+  add_coordinates(&row, sign / R, &result->space, memory < 0 ? none : &result->state.variable[memory]);
   hypofab_probe_measures measures;
-  hypofab_probe_measure(envelope->options.imposed, &result->state, answer, &measures);
+  hypofab_probe_measure(envelope->options.imposed, &result->material, &result->state, answer, &measures);
   add(&row, measures.stiffness);
   add(&row, measures.work);
   if (envelope->options.imposed == HYPOFAB_IMPOSE_STRESS) add(&row, sign * measures.dilatancy);

@@ -18,22 +18,32 @@ typedef struct run {
   hypofab_progress progress;
   void *user;
   bool asked_to_stop;
+  int columns; /* of the table: quantities and their signs */
+  hypofab_quantity column[HYPOFAB_N_QUANTITIES];
+  double sign[HYPOFAB_N_QUANTITIES];
 } run;
 
-static void write_header(int columns, FILE *stream) {
-  for (int i = 0; i < columns; ++i) {
-    fprintf(stream, "%s%s", i ? "," : "", hypofab_quantity_name(i));
-    if (i == HYPOFAB_TIME) fputs(",step", stream);
+static void find_columns(run *run) {
+  run->columns = hypofab_study_columns(run->study, (int)run->index, run->column);
+  for (int i = 0; i < run->columns; ++i) run->sign[i] = study_test_sign(run->study, run->index, run->column[i]);
+}
+
+static void write_header(const run *run, FILE *stream) {
+  const hypofab_model *model = hypofab_study_model(run->study, (int)run->index);
+  char name[HYPOFAB_QUANTITY_NAME_SIZE];
+  for (int i = 0; i < run->columns; ++i) {
+    fprintf(stream, "%s%s", i ? "," : "", hypofab_model_quantity_name(model, run->column[i], name));
+    if (run->column[i] == HYPOFAB_TIME) fputs(",step", stream);
   }
   fputs(",event\n", stream);
 }
 
-static void write_row(const hypofab_study *study, int columns, const hypofab_row *row, FILE *stream) {
+static void write_row(const run *run, const hypofab_row *row, FILE *stream) {
   char line[(HYPOFAB_N_QUANTITIES + 3) * OUTPUT_NUMBER_SIZE];
   int used = output_number(line, ' ', row->value[HYPOFAB_TIME]);
   used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d", row->step + 1);
-  for (int i = HYPOFAB_TIME + 1; i < columns; ++i)
-    used += output_number(line + used, ',', study_quantity_sign(study, i) * row->value[i]);
+  for (int i = 1; i < run->columns; ++i)
+    used += output_number(line + used, ',', run->sign[i] * row->value[run->column[i]]);
   used += snprintf(line + used, OUTPUT_NUMBER_SIZE, ",%d\n", row->event);
   fwrite(line + 1, 1, (size_t)used - 1, stream); /* without the blank in front */
 }
@@ -73,7 +83,7 @@ static int take_row(const hypofab_row *row, void *user) {
   if (result->rows++ == 0) result->start = *row;
   result->ends[row->step] = *row;
   result->steps_begun = (unsigned)row->step + 1;
-  write_row(run->study, study_columns(&run->study->tests[run->index]), row, run->file.stream);
+  write_row(run, row, run->file.stream);
   const hypofab_step *step = &run->study->tests[run->index].steps[row->step];
   if (step->cycle.count == 0 && step->history.n == 0)
     report(run, fraction_done(run, row->step, part_of_step(run, row)));
@@ -82,7 +92,7 @@ static int take_row(const hypofab_row *row, void *user) {
 
 static int take_derivatives(const hypofab_row *row, const double *derivative, void *user) {
   run *run = user;
-  sensitivity_table_row(run->study, row, derivative, run->n_derivatives, run->derivatives.stream);
+  sensitivity_table_row(run->study, (int)run->index, row, derivative, run->n_derivatives, run->derivatives.stream);
   return take_row(row, user) || ferror(run->derivatives.stream);
 }
 
@@ -93,7 +103,8 @@ static hypofab_status open_files(run *run, const char *directory) {
   snprintf(file_name, sizeof file_name, "%s.csv", given->name);
   hypofab_status status = output_open(&run->file, directory, file_name);
   if (status) return status;
-  write_header(study_columns(&run->study->tests[run->index]), run->file.stream);
+  find_columns(run);
+  write_header(run, run->file.stream);
   if (given->sensitivities_count == 0) return HYPOFAB_OK;
   snprintf(file_name, sizeof file_name, "%s_sensitivities.csv", given->name);
   status = output_open(&run->derivatives, directory, file_name);

@@ -14,7 +14,7 @@ void sensitivity_table_header(const hypofab_study *study, int test, FILE *stream
  * @param row        tension positive
  * @param derivative of each of n names in turn HYPOFAB_N_QUANTITIES numbers, tension positive
  */
-void sensitivity_table_row(const hypofab_study *study, const hypofab_row *row, const double *derivative, int n,
-                           FILE *stream);
+void sensitivity_table_row(const hypofab_study *study, int test, const hypofab_row *row, const double *derivative,
+                           int n, FILE *stream);
 
 #endif

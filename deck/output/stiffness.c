@@ -30,7 +30,8 @@ hypofab_status study_stiffness(const hypofab_study *study, unsigned test, const 
   const study_test *given = &study->tests[test];
   const study_state *from = &study->states[given->state];
   hypofab_state initial = from->initial;
-  memcpy(initial.delta, delta, sizeof initial.delta);
+  double *memory = hypofab_memory(study->materials[from->material].model, &initial);
+  if (memory) memcpy(memory, delta, 6 * sizeof *delta);
   hypofab_step step = given->steps[0];
   step.rows = 1; /* its end */
   ends seen = {0};

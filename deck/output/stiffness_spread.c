@@ -47,7 +47,7 @@ static hypofab_status delta_of(const hypofab_study *study, unsigned index, const
                                int corrected, double delta[6]) {
   const study_state *state = &study->states[index];
   const hypofab_bootstrap *bootstrap = all->of_state ? all->of_state[index] : NULL;
-  for (int i = 0; i < 6; i++) delta[i] = state->initial.delta[i];
+  study_delta(study, state, delta);
   if (!state->has_fabric || (!bootstrap && !corrected)) return HYPOFAB_OK;
   hypofab_fabric fabric = state->fabric;
   hypofab_status status = HYPOFAB_OK;
@@ -57,8 +57,8 @@ static hypofab_status delta_of(const hypofab_study *study, unsigned index, const
     status = hypofab_fabric_correct(&fabric, bootstrap ? hypofab_bootstrap_noise2(bootstrap) : -1.0, &fabric);
   hypofab_initial_delta map;
   if (!status)
-    status =
-        hypofab_fabric_to_delta_weighted(&fabric, study->materials[state->material].R, state->c, state->weight, &map);
+    status = hypofab_fabric_to_delta_weighted(&fabric, hypofab_memory_size(&study->materials[state->material]),
+                                              state->c, state->weight, &map);
   for (int i = 0; i < 6 && !status; i++) delta[i] = map.delta[i];
   return status;
 }

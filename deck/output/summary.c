@@ -4,8 +4,13 @@
 
 static json_t *row_object(const hypofab_study *study, unsigned test, const hypofab_row *row) {
   json_t *object = json_object();
-  for (int i = 0; i < study_columns(&study->tests[test]); ++i)
-    json_object_set_new(object, hypofab_quantity_name(i), json_number(study_quantity_sign(study, i) * row->value[i]));
+  const hypofab_model *model = hypofab_study_model(study, (int)test);
+  hypofab_quantity column[HYPOFAB_N_QUANTITIES];
+  char name[HYPOFAB_QUANTITY_NAME_SIZE];
+  const int columns = hypofab_study_columns(study, (int)test, column);
+  for (int i = 0; i < columns; ++i)
+    json_object_set_new(object, hypofab_model_quantity_name(model, column[i], name),
+                        json_number(study_quantity_sign(study, model, column[i]) * row->value[column[i]]));
   return object;
 }
 
@@ -30,7 +35,7 @@ static const char *ended_by(const hypofab_step *step, const hypofab_row *end) {
 }
 
 /* The stop that ended a step, as the deck has it. */
-static json_t *stop_object(const hypofab_study *study, const deck_step *given, const hypofab_step *step,
+static json_t *stop_object(const hypofab_study *study, unsigned test, const deck_step *given, const hypofab_step *step,
                            const hypofab_row *end) {
   if (end->event != HYPOFAB_EVENT_STOP) return json_null();
   static const char *const measures[] = {"level", "change", "double_amplitude"};
@@ -41,7 +46,7 @@ static json_t *stop_object(const hypofab_study *study, const deck_step *given, c
   json_object_set_new(object, "measure", json_string(measures[stop->measure]));
   json_object_set_new(object, "value", json_number(given->stop[end->stop].value));
   json_object_set_new(object, "reached",
-                      json_number(study_quantity_sign(study, stop->mark.quantity) * end->value[stop->mark.quantity]));
+                      json_number(study_test_sign(study, test, stop->mark.quantity) * end->value[stop->mark.quantity]));
   return object;
 }
 
@@ -57,7 +62,7 @@ static json_t *steps_array(const hypofab_study *study, unsigned test, const stud
     json_object_set_new(step, "name", name ? json_string(name) : json_null());
     json_object_set_new(step, "reached", json_boolean(reached));
     json_object_set_new(step, "ended_by", why ? json_string(why) : json_null());
-    json_object_set_new(step, "stop", stop_object(study, given, run, end));
+    json_object_set_new(step, "stop", stop_object(study, test, given, run, end));
     if (run->cycle.count > 0) json_object_set_new(step, "cycles", json_number(end->value[HYPOFAB_CYCLE]));
     json_object_set_new(step, "end", row_object(study, test, end));
     json_object_set_new(step, "secant_stiffness", json_number(study_secant_stiffness(&result->start, end)));

@@ -79,7 +79,7 @@ static void write_point_data(const piece *p) {
     begin_array(p->stream, a < 4 ? "Float64" : "Int32", names[a], 1);
     for (int i = 0; i < n; ++i) {
       hypofab_probe_measures m;
-      hypofab_probe_measure(p->envelope->options.imposed, &p->result->state, &answers[i], &m);
+      hypofab_probe_measure(p->envelope->options.imposed, &p->result->material, &p->result->state, &answers[i], &m);
       const double values[8] = {
           m.stiffness, m.angle_to_stress, m.angle_to_delta, p->result->distances[i], p->series, p->part,
           i,           answers[i].status};

@@ -8,6 +8,7 @@
 /* Between the driver and the caller's sink. */
 typedef struct delivery {
   const hypofab_study *study;
+  const hypofab_model *model;
   hypofab_row_sink sink;
   hypofab_sensitivity_sink sink_of_derivatives;
   int (*watch)(int step, double done, void *user);
@@ -22,7 +23,7 @@ static double in_sign(double sign, double value) { return value == 0 ? 0 : sign 
 static hypofab_row turn(const delivery *to, const hypofab_row *row) {
   hypofab_row turned = *row;
   for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i)
-    turned.value[i] = in_sign(study_quantity_sign(to->study, (hypofab_quantity)i), row->value[i]);
+    turned.value[i] = in_sign(study_quantity_sign(to->study, to->model, (hypofab_quantity)i), row->value[i]);
   return turned;
 }
 
@@ -37,7 +38,7 @@ static int deliver_derivatives(const hypofab_row *row, const double *derivative,
   const hypofab_row turned = turn(to, row);
   for (int k = 0; k < to->n * HYPOFAB_N_QUANTITIES; ++k) {
     const hypofab_quantity quantity = (hypofab_quantity)(k % HYPOFAB_N_QUANTITIES);
-    to->derivative[k] = in_sign(study_quantity_sign(to->study, quantity), derivative[k]);
+    to->derivative[k] = in_sign(study_quantity_sign(to->study, to->model, quantity), derivative[k]);
   }
   return to->sink_of_derivatives(&turned, to->derivative, to->user);
 }
@@ -56,15 +57,24 @@ static hypofab_status check(const hypofab_study *study, int test, bool has_sink)
   return HYPOFAB_OK;
 }
 
+const hypofab_model *hypofab_study_model(const hypofab_study *study, int test) {
+  return hypofab_study_test_name(study, test) ? study_material(study, (unsigned)test)->model : NULL;
+}
+
+int hypofab_study_columns(const hypofab_study *study, int test, hypofab_quantity column[HYPOFAB_N_QUANTITIES]) {
+  const hypofab_model *model = hypofab_study_model(study, test);
+  return model ? hypofab_model_columns(model, study->tests[test].options.stability, column) : 0;
+}
+
 hypofab_status hypofab_study_test_run(const hypofab_study *study, int index, hypofab_row_sink sink,
-                                      int (*watched)(int step, double done, void *user), void *user, int *columns,
+                                      int (*watched)(int step, double done, void *user), void *user,
                                       hypofab_test_outcome *outcome) {
   const hypofab_status status = check(study, index, sink);
   if (status) return status;
   const study_test *test = &study->tests[index];
   const study_state *state = &study->states[test->state];
-  if (columns) *columns = study_columns(test);
-  delivery to = {.study = study, .sink = sink, .watch = watched, .user = user};
+  delivery to = {
+      .study = study, .model = study->materials[state->material].model, .sink = sink, .watch = watched, .user = user};
   hypofab_test_options options = test->options;
   options.watch = watched ? watch : NULL;
   return hypofab_test_run(&study->materials[state->material], &state->initial, test->steps, (int)test->n_steps,
@@ -74,15 +84,19 @@ hypofab_status hypofab_study_test_run(const hypofab_study *study, int index, hyp
 hypofab_status hypofab_study_test_sensitivities(const hypofab_study *study, int index, int n_names,
                                                 const char *const *names, hypofab_sensitivity_sink sink,
                                                 int (*watched)(int step, double done, void *user), void *user,
-                                                int *columns, hypofab_test_outcome *outcome) {
+                                                hypofab_test_outcome *outcome) {
   hypofab_variation *variations = NULL;
   hypofab_status status = check(study, index, sink);
   if (!status) status = study_variations(study, index, names, &n_names, &variations);
   if (status) return status;
   const study_test *test = &study->tests[index];
   const study_state *state = &study->states[test->state];
-  if (columns) *columns = study_columns(test);
-  delivery to = {.study = study, .sink_of_derivatives = sink, .watch = watched, .user = user, .n = n_names};
+  delivery to = {.study = study,
+                 .model = study->materials[state->material].model,
+                 .sink_of_derivatives = sink,
+                 .watch = watched,
+                 .user = user,
+                 .n = n_names};
   to.derivative = calloc((size_t)n_names + 1, HYPOFAB_N_QUANTITIES * sizeof *to.derivative);
   hypofab_test_options options = test->options;
   options.watch = watched ? watch : NULL;

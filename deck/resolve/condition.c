@@ -36,9 +36,10 @@ static hypofab_status resolve_condition(const hypofab_study *study, const deck_s
   if (given->quantity) {
     hypofab_quantity quantity;
     const deck_key key = step_key(place, ".conditions[%u].quantity", i);
-    hypofab_status status = study_resolve_quantity(source, key, given->quantity, &quantity);
+    hypofab_status status =
+        study_resolve_quantity(source, key, study_material(study, place.test)->model, given->quantity, &quantity);
     if (status) return status;
-    status = hypofab_step_condition(step, (int)i, quantity, study_quantity_sign(study, quantity) * rate);
+    status = hypofab_step_condition(step, (int)i, quantity, study_test_sign(study, place.test, quantity) * rate);
     return status ? deck_refuse(source, status, key, "%s", hypofab_last_message()) : HYPOFAB_OK;
   }
   for (int j = 0; j < 6; ++j) {
@@ -90,8 +91,9 @@ static hypofab_status resolve_held(const deck_source *source, step_place place, 
 static hypofab_status resolve_water(const hypofab_study *study, const deck_source *source, step_place place,
                                     const deck_water *given, hypofab_step *step) {
   if (given->held) return resolve_held(source, place, given, step);
-  const study_state *state = &study->states[study->tests[place.test].state];
-  const double K_w = given->K_w ? *given->K_w : study->materials[state->material].K_w;
+  const hypofab_material *material = study_material(study, place.test);
+  const int of_material = hypofab_model_describe(material->model)->pore_water;
+  const double K_w = given->K_w ? *given->K_w : of_material >= 0 ? material->value[of_material] : 0.0;
   const double porosity = given->porosity ? *given->porosity : 1;
   if (!(K_w > 0))
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, given->K_w ? ".pore_water.K_w" : ".pore_water"),

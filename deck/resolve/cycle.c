@@ -8,7 +8,7 @@
 
 static hypofab_status resolve_reversals(const hypofab_study *study, const deck_source *source, step_place place,
                                         const deck_cycle *given, hypofab_cycle *cycle) {
-  const double sign = study_quantity_sign(study, cycle->quantity);
+  const double sign = study_test_sign(study, place.test, cycle->quantity);
   if (!!given->amplitude + !!given->between + !!given->from_start != 1)
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".cycle"),
                        "expected exactly one of 'amplitude', 'between' and 'from_start'");
@@ -38,7 +38,8 @@ hypofab_status step_resolve_cycle(const hypofab_study *study, const deck_source 
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".cycle"),
                        "has no meaning with 'table', expected its rows to go back and forth");
   const deck_key key = step_key(place, ".cycle.quantity");
-  hypofab_status status = study_resolve_quantity(source, key, given->quantity, &cycle->quantity);
+  hypofab_status status =
+      study_resolve_quantity(source, key, study_material(study, place.test)->model, given->quantity, &cycle->quantity);
   if (status) return status;
   if (cycle->quantity == HYPOFAB_TIME || cycle->quantity == HYPOFAB_CYCLE)
     return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' only grows, expected a quantity to cycle", given->quantity);
@@ -67,12 +68,13 @@ hypofab_status step_resolve_stops(const hypofab_study *study, const deck_source 
     const deck_stop *entry = &given->stop[i];
     hypofab_stop *stop = &step->stops[i];
     hypofab_status status =
-        study_resolve_quantity(source, step_key(place, ".stop[%u].quantity", i), entry->quantity, &stop->mark.quantity);
+        study_resolve_quantity(source, step_key(place, ".stop[%u].quantity", i),
+                               study_material(study, place.test)->model, entry->quantity, &stop->mark.quantity);
     if (status) return status;
     stop->measure = entry->measure ? (hypofab_measure)*entry->measure : HYPOFAB_LEVEL;
     stop->ends_test = entry->ends ? *entry->ends : 0;
     const bool is_level = stop->measure == HYPOFAB_LEVEL;
-    stop->mark.value = (is_level ? study_quantity_sign(study, stop->mark.quantity) : 1) * entry->value;
+    stop->mark.value = (is_level ? study_test_sign(study, place.test, stop->mark.quantity) : 1) * entry->value;
     if (!is_level && !(entry->value > 0))
       return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".stop[%u].value", i),
                          "%g, expected a value > 0 for a change or a double amplitude", entry->value);

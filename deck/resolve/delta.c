@@ -75,7 +75,7 @@ static hypofab_status read_contacts(const deck_source *source, unsigned index, c
 
 /* Delta of a contact fabric: from a contact list, or from the tensor N itself (paper 000, Eqs. 6 and 7). */
 static hypofab_status resolve_fabric(const deck_source *source, unsigned index, const deck_delta *given, double R,
-                                     study_state *state) {
+                                     study_state *state, double delta[6]) {
   hypofab_status status;
   if (given->contacts) {
     status = read_contacts(source, index, given, state);
@@ -97,7 +97,7 @@ static hypofab_status resolve_fabric(const deck_source *source, unsigned index, 
                        deck_key_format(given->weight ? "states[%u].delta.weight" : "states[%u].delta", index), "%s",
                        hypofab_last_message());
   state->has_fabric = true;
-  memcpy(state->initial.delta, state->map.delta, sizeof state->initial.delta);
+  memcpy(delta, state->map.delta, sizeof state->map.delta);
   return HYPOFAB_OK;
 }
 
@@ -139,12 +139,13 @@ hypofab_status study_resolve_delta(hypofab_study *study, const deck_source *sour
   hypofab_status status = check_source(source, index, given);
   /* A material whose intergranular strain is switched off keeps delta = 0 whatever the deck says. */
   if (status || !intergranular || given->zero) return status;
+  double *delta = hypofab_memory(material->model, &state->initial);
+  const double R = hypofab_memory_size(material);
   if (given->components) {
-    for (int i = 0; i < 6; ++i) state->initial.delta[i] = study_sign(study) * given->components[i];
+    for (int i = 0; i < 6; ++i) delta[i] = study_sign(study) * given->components[i];
     return HYPOFAB_OK;
   }
   if (given->mobilised)
-    return mobilise(study, source, deck_key_format("states[%u].delta.mobilised", index), given->mobilised, material->R,
-                    state->initial.delta);
-  return resolve_fabric(source, index, given, material->R, state);
+    return mobilise(study, source, deck_key_format("states[%u].delta.mobilised", index), given->mobilised, R, delta);
+  return resolve_fabric(source, index, given, R, state, delta);
 }

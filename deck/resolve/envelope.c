@@ -135,11 +135,14 @@ static hypofab_status resolve_series(const hypofab_study *study, const deck_sour
                          "'%s' is also the name of series[%u], expected a name of its own", given->name, i);
   hypofab_status status = resolve_start(study, source, envelope, index, series);
   if (status) return status;
-  if (given->intergranular && *given->intergranular && !study_has_intergranular(&series->material))
-    return deck_refuse(
-        source, HYPOFAB_BAD_MATERIAL, deck_key_format("envelopes[%u].series[%u].intergranular", envelope, index),
-        "true, but the material of %s '%s' has no intergranular strain (m_R = %g), expected false",
-        given->state ? "state" : "test", given->state ? given->state : given->after, series->material.m_R);
+  double value;
+  if (given->intergranular && *given->intergranular && !study_has_intergranular(&series->material)) {
+    const char *name = study_memory_switch(&series->material, &value);
+    return deck_refuse(source, HYPOFAB_BAD_MATERIAL,
+                       deck_key_format("envelopes[%u].series[%u].intergranular", envelope, index),
+                       "true, but the material of %s '%s' has no intergranular strain (%s = %g), expected false",
+                       given->state ? "state" : "test", given->state ? given->state : given->after, name, value);
+  }
   series->plain = given->intergranular && !*given->intergranular;
   return HYPOFAB_OK;
 }

@@ -66,7 +66,8 @@ static hypofab_status hold(intake *in) {
   for (unsigned i = 0; i < in->given->hold_count && !status; ++i) {
     const deck_key key = step_key(in->place, ".table.hold[%u]", i);
     hypofab_quantity quantity;
-    status = study_resolve_quantity(in->source, key, in->given->hold[i], &quantity);
+    status = study_resolve_quantity(in->source, key, study_material(in->study, in->place.test)->model,
+                                    in->given->hold[i], &quantity);
     if (!status) status = add(in, quantity, -1, key);
   }
   return status;
@@ -121,7 +122,7 @@ static hypofab_status take_rows(intake *in, table *data) {
       return table_refuse_next(data, 0, "is not later than the row before", "increasing times");
     for (int i = 0; i < 6; ++i) {
       const bool held = i >= in->n_conditions || in->request[i] < 0;
-      value[i] = held ? 0 : study_quantity_sign(in->study, in->quantity[i]) * row[in->request[i]].real;
+      value[i] = held ? 0 : study_test_sign(in->study, in->place.test, in->quantity[i]) * row[in->request[i]].real;
     }
     history->n++;
   }

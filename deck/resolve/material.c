@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,41 +7,30 @@
 
 double deck_kpa(deck_unit unit) { return unit == DECK_PA ? 1e3 : unit == DECK_MPA ? 1e-3 : 1.0; }
 
-/* hypofab_material is its sixteen doubles in the order of hypofab_parameter_describe. */
-static double *parameter(hypofab_material *material, int index) { return (double *)material + index; }
-
 static void convert_stresses(hypofab_material *material, double factor) {
+  const int n = hypofab_model_describe(material->model)->n_parameters;
   hypofab_parameter_info info;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i)
-    if (!hypofab_parameter_describe(i, &info) && strcmp(info.unit, "stress") == 0) *parameter(material, i) *= factor;
+  for (int i = 0; i < n && !hypofab_model_parameter(material->model, i, &info); ++i)
+    if (strcmp(info.unit, "stress") == 0) material->value[i] *= factor;
 }
 
 hypofab_status deck_sand(const char *name, deck_unit unit, hypofab_material *material) {
-  const hypofab_status status = hypofab_sand(name, material);
+  const hypofab_status status = hypofab_material_built_in(name, material);
   if (!status) convert_stresses(material, deck_kpa(unit)); /* built-in sands are in kPa */
   return status;
 }
 
-static bool is_needed(const char *name, bool intergranular) {
-  static const char *const always[] = {"phi_c", "h_s", "n", "e_d0", "e_c0", "e_i0", "alpha", "beta"};
-  static const char *const with_intergranular[] = {"m_R", "m_T", "R", "beta_r", "chi"};
-  for (size_t i = 0; i < sizeof always / sizeof *always; ++i)
-    if (strcmp(name, always[i]) == 0) return true;
-  for (size_t i = 0; intergranular && i < sizeof with_intergranular / sizeof *with_intergranular; ++i)
-    if (strcmp(name, with_intergranular[i]) == 0) return true;
-  return false;
-}
-
-/* Without a built-in sand every parameter of the model must be the deck's own; p_t, K_w and e_0 are 0 by default. */
-static hypofab_status start_without_sand(const deck_source *source, unsigned index, const deck_material *given,
-                                         bool intergranular, hypofab_material *material) {
-  /* Admissible values without effect, for an intergranular strain that is switched off. */
-  *material = (hypofab_material){.m_R = 5, .m_T = 2, .R = 1e-4, .beta_r = 0.5, .chi = 6};
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i) {
-    hypofab_parameter_info info;
-    hypofab_status status = hypofab_parameter_describe(i, &info);
-    if (status) return status;
-    if (!is_needed(info.name, intergranular) || (given->parameters && given->parameters->value[i])) continue;
+/* Without a built-in set every parameter that has no usual value must be the deck's own, and those of the intergranular
+ * strain unless it is switched off: a start that nobody chose would decide the answer. */
+static hypofab_status start_without_set(const deck_source *source, unsigned index, const deck_material *given,
+                                        bool intergranular, hypofab_material *material) {
+  const hypofab_model *model = hypofab_model_at(0);
+  const int n = hypofab_model_describe(model)->n_parameters;
+  hypofab_parameter_info info;
+  hypofab_material_start(model, material);
+  for (int i = 0; i < n && !hypofab_model_parameter(model, i, &info); ++i) {
+    const bool is_needed = isnan(info.start) || (intergranular && info.role == HYPOFAB_OF_MEMORY);
+    if (!is_needed || (given->parameters && given->parameters->value[i])) continue;
     return deck_refuse(source, HYPOFAB_BAD_MATERIAL,
                        deck_key_format("materials[%u]%s", index, given->parameters ? ".parameters" : ""),
                        "'%s' is missing (%s), expected a value or a built-in sand (key 'sand') to take it from",
@@ -50,18 +40,28 @@ static hypofab_status start_without_sand(const deck_source *source, unsigned ind
 }
 
 static void override_parameters(const deck_parameters *given, hypofab_material *material) {
-  for (int i = 0; given && i < HYPOFAB_N_PARAMETERS; ++i)
-    if (given->value[i]) *parameter(material, i) = *given->value[i];
+  for (int i = 0; given && i < HYPOFAB_MAX_PARAMETERS; ++i)
+    if (given->value[i]) material->value[i] = *given->value[i];
 }
 
 /* The key that an inadmissible material is refused for: the parameter at fault, where the deck gives it. */
-static deck_key blamed_key(unsigned index, const deck_parameters *given) {
+static deck_key blamed_key(unsigned index, const hypofab_material *material, const deck_parameters *given) {
   const hypofab_subject *subject = hypofab_last_subject();
-  hypofab_parameter_info info;
-  for (int i = 0; given && i < HYPOFAB_N_PARAMETERS; ++i)
-    if (given->value[i] && !hypofab_parameter_describe(i, &info) && strcmp(info.name, subject->name) == 0)
-      return deck_key_format("materials[%u].parameters.%s", index, info.name);
+  const int i =
+      subject->about == HYPOFAB_ABOUT_PARAMETER ? hypofab_model_parameter_find(material->model, subject->name) : -1;
+  if (i >= 0 && given && given->value[i]) return deck_key_format("materials[%u].parameters.%s", index, subject->name);
   return deck_key_format("materials[%u]%s", index, given ? ".parameters" : "");
+}
+
+const char *study_memory_switch(const hypofab_material *material, double *value) {
+  *value = 0.0;
+  const int n = hypofab_model_describe(material->model)->n_parameters;
+  hypofab_parameter_info info;
+  for (int i = 0; i < n && !hypofab_model_parameter(material->model, i, &info); ++i) {
+    *value = material->value[i];
+    if (info.role == HYPOFAB_OF_MEMORY) return info.name;
+  }
+  return "no parameter";
 }
 
 static hypofab_status resolve_material(const hypofab_study *study, const deck_source *source, unsigned index,
@@ -75,17 +75,23 @@ static hypofab_status resolve_material(const hypofab_study *study, const deck_so
       return deck_refuse(source, status, deck_key_format("materials[%u].sand", index), "%s", hypofab_last_message());
     if (status) return status;
   } else {
-    status = start_without_sand(source, index, given, intergranular, material);
+    status = start_without_set(source, index, given, intergranular, material);
     if (status) return status;
   }
   override_parameters(given->parameters, material);
-  if (!intergranular) material->m_R = 0;
-  if (given->intergranular && intergranular && !study_has_intergranular(material))
-    return deck_refuse(source, HYPOFAB_BAD_MATERIAL, deck_key_format("materials[%u].intergranular", index),
-                       "true, but m_R is %g, expected m_R > 0.5 and m_T, R, beta_r, chi under 'parameters'",
-                       material->m_R);
+  if (!intergranular) hypofab_memory_off(material);
+  double value;
+  if (given->intergranular && intergranular && !study_has_intergranular(material)) {
+    const char *name = study_memory_switch(material, &value);
+    return deck_refuse(
+        source, HYPOFAB_BAD_MATERIAL, deck_key_format("materials[%u].intergranular", index),
+        "true, but %s is %g, which switches it off, expected parameters of an intergranular strain under "
+        "'parameters'",
+        name, value);
+  }
   status = hypofab_material_check(material);
-  if (status) return deck_refuse(source, status, blamed_key(index, given->parameters), "%s", hypofab_last_message());
+  if (status)
+    return deck_refuse(source, status, blamed_key(index, material, given->parameters), "%s", hypofab_last_message());
   return HYPOFAB_OK;
 }
 

@@ -13,14 +13,18 @@ deck_key step_key(step_place place, const char *format, ...) {
   return deck_key_format("tests[%u].steps[%u]%s", place.test, place.step, rest);
 }
 
-hypofab_status study_resolve_quantity(const deck_source *source, deck_key key, const char *name,
-                                      hypofab_quantity *quantity) {
-  *quantity = hypofab_quantity_find(name);
+hypofab_status study_resolve_quantity(const deck_source *source, deck_key key, const hypofab_model *model,
+                                      const char *name, hypofab_quantity *quantity) {
+  *quantity = hypofab_model_quantity_find(model, name);
   if (*quantity != HYPOFAB_N_QUANTITIES) return HYPOFAB_OK;
-  char known[640] = "";
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; ++i) {
+  char known[1024] = "";
+  hypofab_quantity column[HYPOFAB_N_QUANTITIES];
+  const int n = hypofab_model_columns(model, 1, column);
+  for (int i = 0; i < n; ++i) {
+    char text[HYPOFAB_QUANTITY_NAME_SIZE];
     const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", hypofab_quantity_name(i));
+    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+             hypofab_model_quantity_name(model, column[i], text));
   }
   return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is not a quantity, expected one of %s", name, known);
 }

@@ -16,7 +16,7 @@ typedef struct step_place {
 deck_key step_key(step_place place, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /** A quantity by its column name. */
-hypofab_status study_resolve_quantity(const deck_source *source, deck_key key, const char *name,
-                                      hypofab_quantity *quantity);
+hypofab_status study_resolve_quantity(const deck_source *source, deck_key key, const hypofab_model *model,
+                                      const char *name, hypofab_quantity *quantity);
 
 #endif

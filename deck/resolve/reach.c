@@ -30,7 +30,7 @@ static hypofab_status check_until(const hypofab_study *study, const deck_source 
   const hypofab_mark until = step->until;
   const double rate = prescribed_rate(step, until.quantity);
   const char *name = hypofab_quantity_name(until.quantity);
-  const double sign = study_quantity_sign(study, until.quantity);
+  const double sign = study_test_sign(study, test, until.quantity);
   const deck_key key = deck_key_format("tests[%u].steps[%u].until.value", test, i);
   if (rate == 0)
     return deck_refuse(source, HYPOFAB_BAD_FILE, key,

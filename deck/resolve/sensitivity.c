@@ -18,7 +18,8 @@ static bool follows_R(const deck_delta *given) {
 static hypofab_status vary_c(const study_state *state, const hypofab_material *material, hypofab_variation *variation) {
   if (!state->has_fabric) return refuse("c", "is not in this test, expected a state with delta from a fabric");
   *variation = (hypofab_variation){0};
-  return hypofab_fabric_delta_slope(&state->fabric, material->R, state->c, state->weight, variation->initial.delta);
+  return hypofab_fabric_delta_slope(&state->fabric, hypofab_memory_size(material), state->c, state->weight,
+                                    hypofab_memory(material->model, &variation->initial));
 }
 
 /* The stiffness of the pore water must come from the material in every step, and in one at least. */
@@ -34,10 +35,13 @@ static hypofab_status check_water(const deck_test *given) {
   return steps > 0 ? HYPOFAB_OK : refuse("K_w", "is not in this test, expected a step with pore_water");
 }
 
-static bool is_one_of(const char *name, const char *const *list, size_t n) {
-  for (size_t i = 0; i < n; ++i)
-    if (strcmp(name, list[i]) == 0) return true;
-  return false;
+/* Does a number belong to the intergranular strain: one of its parameters, of its components, or c? */
+static bool is_of_memory(const hypofab_model *model, const char *name) {
+  hypofab_parameter_info info;
+  const int parameter = hypofab_model_parameter_find(model, name);
+  const hypofab_quantity quantity = hypofab_quantity_find(name);
+  if (strcmp(name, "c") == 0 || (quantity >= HYPOFAB_DELTA_XX && quantity <= HYPOFAB_DELTA_YZ)) return true;
+  return parameter >= 0 && !hypofab_model_parameter(model, parameter, &info) && info.role == HYPOFAB_OF_MEMORY;
 }
 
 static bool is_test(const hypofab_study *study, int test) {
@@ -46,30 +50,32 @@ static bool is_test(const hypofab_study *study, int test) {
 
 hypofab_status hypofab_study_variation(const hypofab_study *study, int test, const char *name,
                                        hypofab_variation *variation) {
-  static const char *const intergranular[] = {"m_R", "m_T", "R", "beta_r", "chi", "c"};
   if (!is_test(study, test) || !name || !variation)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "expected a test of the study, a name and a variation to fill");
   const study_state *state = &study->states[study->tests[test].state];
   const hypofab_material *material = &study->materials[state->material];
-  const bool of_delta = strncmp(name, "delta_", 6) == 0;
-  if (!study_has_intergranular(material) &&
-      (of_delta || is_one_of(name, intergranular, sizeof intergranular / sizeof *intergranular)))
+  const hypofab_quantity quantity = hypofab_model_quantity_find(material->model, name);
+  const bool of_delta = quantity >= HYPOFAB_DELTA_XX && quantity <= HYPOFAB_DELTA_YZ;
+  if (!study_has_intergranular(material) && is_of_memory(material->model, name))
     return refuse(name, "has no influence, for the material has no intergranular strain (m_R <= 0.5)");
   if (strcmp(name, "c") == 0) return vary_c(state, material, variation);
   hypofab_status status = strcmp(name, "K_w") == 0 ? check_water(&study->deck->tests[test]) : HYPOFAB_OK;
   if (!status) status = hypofab_variation_of(name, material, variation);
   if (status) return status;
-  if (strcmp(name, "R") == 0 && follows_R(study->deck->states[study->tests[test].state].delta))
-    for (int i = 0; i < 6; ++i) variation->initial.delta[i] = state->initial.delta[i] / material->R;
+  const hypofab_model_info *info = hypofab_model_describe(material->model);
+  const double *delta = study_has_intergranular(material) ? &state->initial.variable[info->memory] : NULL;
+  if (hypofab_model_parameter_find(material->model, name) == info->memory_parameter && delta &&
+      follows_R(study->deck->states[study->tests[test].state].delta))
+    for (int i = 0; i < 6; ++i)
+      variation->initial.variable[info->memory + i] = delta[i] / hypofab_memory_size(material);
   double size = 0;
-  for (int i = 0; i < 6; ++i) size += state->initial.delta[i] * state->initial.delta[i];
+  for (int i = 0; i < 6 && delta; ++i) size += delta[i] * delta[i];
   if (of_delta && size == 0)
     return refuse(name, "starts from delta = 0, where a test has no derivative; expected another delta");
-  if (of_delta || strncmp(name, "sig_", 4) == 0)
-    for (int i = 0; i < 6; ++i) {
-      variation->initial.stress[i] *= study_sign(study);
-      variation->initial.delta[i] *= study_sign(study);
-    }
+  if (quantity < HYPOFAB_N_QUANTITIES && hypofab_model_quantity_has_sign(material->model, quantity)) {
+    double *number = (double *)&variation->initial;
+    for (int i = 0; i < (int)(sizeof variation->initial / sizeof *number); ++i) number[i] *= study_sign(study);
+  }
   return HYPOFAB_OK;
 }
 

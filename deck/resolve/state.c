@@ -43,9 +43,10 @@ static hypofab_status resolve_state(hypofab_study *study, const deck_source *sou
                        "'%s' is not defined, expected the name of one of the deck's materials", given->material);
   const hypofab_material *material = &study->materials[state->material];
 
+  hypofab_state_start(material->model, &state->initial);
   hypofab_status status = resolve_stress(study, source, index, state->initial.stress);
   if (status) return status;
-  state->initial.void_ratio = given->void_ratio;
+  *hypofab_void_ratio(material->model, &state->initial) = given->void_ratio;
   status = study_resolve_delta(study, source, index);
   if (status) return status;
 

@@ -7,8 +7,8 @@
 /* Integer rows are int in the library; more than this is a slip of the pen. */
 #define MOST_ROWS 100000000
 
-static hypofab_status resolve_rows(const deck_source *source, step_place place, const deck_step *given,
-                                   hypofab_step *step) {
+static hypofab_status resolve_rows(const deck_source *source, const hypofab_model *model, step_place place,
+                                   const deck_step *given, hypofab_step *step) {
   if (given->rows && given->every)
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".every"),
                        "'rows' is given too, expected one of them");
@@ -17,7 +17,7 @@ static hypofab_status resolve_rows(const deck_source *source, step_place place, 
       return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".every.value"), "%g, expected a spacing > 0",
                          given->every->value);
     step->every.value = given->every->value;
-    return study_resolve_quantity(source, step_key(place, ".every.quantity"), given->every->quantity,
+    return study_resolve_quantity(source, step_key(place, ".every.quantity"), model, given->every->quantity,
                                   &step->every.quantity);
   }
   const unsigned rows = given->rows ? *given->rows : given->cycle ? CYCLE_ROWS : given->table ? 1 : DEFAULT_ROWS;
@@ -37,9 +37,10 @@ static hypofab_status resolve_until(const hypofab_study *study, const deck_sourc
   if (!given->until)
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, "%s", ""),
                        "key 'until' is missing, expected a mapping with keys among quantity, value");
-  hypofab_status status =
-      study_resolve_quantity(source, step_key(place, ".until.quantity"), given->until->quantity, &step->until.quantity);
-  step->until.value = study_quantity_sign(study, step->until.quantity) * given->until->value;
+  const hypofab_model *model = study_material(study, place.test)->model;
+  hypofab_status status = study_resolve_quantity(source, step_key(place, ".until.quantity"), model,
+                                                 given->until->quantity, &step->until.quantity);
+  step->until.value = study_quantity_sign(study, model, step->until.quantity) * given->until->value;
   return status;
 }
 
@@ -52,7 +53,7 @@ hypofab_status study_resolve_step(hypofab_study *study, const deck_source *sourc
   if (!status) status = resolve_until(study, source, place, given, step);
   if (!status) status = step_resolve_cycle(study, source, place, step);
   if (!status) status = step_resolve_stops(study, source, place, step);
-  if (!status) status = resolve_rows(source, place, given, step);
+  if (!status) status = resolve_rows(source, study_material(study, test)->model, place, given, step);
   if (status) return status;
   if (given->max_time && !(*given->max_time > 0))
     return deck_refuse(source, HYPOFAB_BAD_FILE, step_key(place, ".max_time"), "%g, expected a time > 0",

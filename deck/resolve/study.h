@@ -81,20 +81,34 @@ static inline double study_sign(const hypofab_study *study) {
   return study->sign == DECK_COMPRESSION_POSITIVE ? -1.0 : 1.0;
 }
 
-/** The same for a quantity: stress, strain, eps_v and delta have a sign to change; p, q, pore pressure keep theirs. */
-static inline double study_quantity_sign(const hypofab_study *study, hypofab_quantity quantity) {
-  const bool has_sign = (quantity >= HYPOFAB_EPS_XX && quantity <= HYPOFAB_DELTA_YZ) || quantity == HYPOFAB_EPS_V ||
-                        (quantity >= HYPOFAB_TOT_XX && quantity <= HYPOFAB_TOT_ZZ) ||
-                        (quantity >= HYPOFAB_WORK2_XX && quantity <= HYPOFAB_WORK2_YZ);
-  return has_sign ? study_sign(study) : 1.0;
+/** The same for a quantity of a model: stress, strain, eps_v and delta have a sign to change; p, q keep theirs. */
+static inline double study_quantity_sign(const hypofab_study *study, const hypofab_model *model,
+                                         hypofab_quantity quantity) {
+  return hypofab_model_quantity_has_sign(model, quantity) ? study_sign(study) : 1.0;
 }
 
-/** Quantities in the results of a test: those of stability when it asks for them. */
-static inline int study_columns(const study_test *test) {
-  return test->options.stability ? HYPOFAB_N_QUANTITIES : HYPOFAB_FIRST_STABILITY;
+/** The material of a test. */
+static inline const hypofab_material *study_material(const hypofab_study *study, unsigned test) {
+  return &study->materials[study->states[study->tests[test].state].material];
 }
 
-/** Has a material intergranular strain? (m_R <= 0.5 switches it off.) */
-static inline bool study_has_intergranular(const hypofab_material *material) { return material->m_R > 0.5; }
+/** study_quantity_sign for the model of a test. */
+static inline double study_test_sign(const hypofab_study *study, unsigned test, hypofab_quantity quantity) {
+  return study_quantity_sign(study, study_material(study, test)->model, quantity);
+}
+
+/** The intergranular strain of a state as the deck gives it; zero for a model that has none. */
+static inline void study_delta(const hypofab_study *study, const study_state *state, double delta[6]) {
+  const int place = hypofab_model_describe(study->materials[state->material].model)->memory;
+  for (int i = 0; i < 6; ++i) delta[i] = place < 0 ? 0.0 : state->initial.variable[place + i];
+}
+
+/** The parameter that switches the intergranular strain of a material on or off, for messages. @param value set */
+const char *study_memory_switch(const hypofab_material *material, double *value);
+
+/** Has a material intergranular strain, and is it on? */
+static inline bool study_has_intergranular(const hypofab_material *material) {
+  return hypofab_memory_size(material) > 0.0;
+}
 
 #endif

@@ -8,8 +8,14 @@
 
 /* Texts that name something of the library: the key, and name number index (NULL past the last). */
 static const char *sand_name(int index) {
-  hypofab_sand_info info;
-  return index < hypofab_sand_count() && !hypofab_sand_describe(index, &info) ? info.name : NULL;
+  const hypofab_model *model;
+  for (int i = 0; (model = hypofab_model_at(i)); ++i) {
+    const int n = hypofab_model_set_count(model);
+    hypofab_set_info info;
+    if (index < n) return hypofab_model_set(model, index, &info) ? NULL : info.name;
+    index -= n;
+  }
+  return NULL;
 }
 
 static const char *quantity_name(int index) { return hypofab_quantity_name((hypofab_quantity)index); }

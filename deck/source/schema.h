@@ -21,7 +21,7 @@ typedef enum deck_sign { DECK_TENSION_POSITIVE, DECK_COMPRESSION_POSITIVE } deck
 
 /** Parameters by name, in the order of hypofab_material. */
 typedef struct deck_parameters {
-  double *value[HYPOFAB_N_PARAMETERS];
+  double *value[HYPOFAB_MAX_PARAMETERS];
 } deck_parameters;
 
 typedef struct deck_material {

@@ -8,7 +8,7 @@
 
 #include "base/message.h"
 #include "driver/control/course.h"
-#include "driver/quantity/quantity.h"
+#include "driver/quantity/table.h"
 #include "driver/tensor.h"
 
 /* Smallest ratio of pivots, rows scaled to 1, that still counts as a regular control. */

@@ -3,24 +3,25 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "driver/control/course.h"
-#include "driver/quantity/quantity.h"
+#include "driver/quantity/frame.h"
 
-static const double radians = 3.14159265358979323846 / 180.0;
+static const double radians = 1.0 / HYPOFAB_DEGREES;
 
 void course_slope(const hypofab_step *step, const double stress[6], double slope[6][6]) {
   const hypofab_turn *turn = &step->turn;
   memset(slope, 0, 6 * sizeof *slope);
   if (!turn->on) return;
-  int a, n, l;
+  const frame f = frame_of(step);
+  const int a = f.axis, n = f.normal, l = f.lateral;
   double centre, r, degrees;
-  observer_frame(step, &a, &n, &l);
-  quantity_plane(stress, a, l, &centre, &r, &degrees);
+  frame_circle(stress, f, &centre, &r, &degrees);
   const double angle = 2.0 * radians * degrees, c2 = cos(angle), s2 = sin(angle);
   const double b = (-stress[n] - centre + r) / (2.0 * r), root = sqrt(1.0 - b + b * b), skew = 2.0 * b - 1.0;
   const double u = r * skew / root, r_rate = (turn->q - u * turn->b) / (2.0 * root);
   const double spin = 2.0 * radians * turn->alpha, turning = r * spin;
-  const int moved[] = {a, n, l, a + l + 2};
+  const int moved[] = {a, n, l, frame_shear(a, l)};
   for (int m = 0; m < 4; m++) {
     const int j = moved[m];
     /* Derivatives of Mohr's circle: centre, half difference r cos 2alpha, shear r sin 2alpha. */
@@ -38,7 +39,7 @@ void course_slope(const hypofab_step *step, const double stress[6], double slope
     stress_rate[a] = -(d_c_rate + d_cos);
     stress_rate[l] = -(d_c_rate - d_cos);
     stress_rate[n] = -(d_c_rate - d_r_rate + 2.0 * (d_r_rate * b + r_rate * d_b + d_r * turn->b));
-    stress_rate[a + l + 2] = -d_sin;
+    stress_rate[moved[3]] = -d_sin;
     for (int i = 0; i < 6; i++)
       for (int k = 0; k < 6; k++) slope[j][i] += step->on_stress[i][k] * stress_rate[k];
   }

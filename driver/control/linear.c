@@ -8,11 +8,7 @@ hypofab_status linear_parts_of(const hypofab_material *material, const hypofab_s
   if (status) return status;
   memcpy(parts->linear, parts->reversal, sizeof parts->linear);
   if (parts->model == HYPOFAB_PLAIN) return HYPOFAB_OK;
-  hypofab_state without = *state;
-  double jump[6], direction[6];
-  hypofab_branch model;
-  memset(without.delta, 0, sizeof without.delta);
-  return hypofab_linear_parts(material, &without, parts->linear, jump, direction, &model);
+  return hypofab_small_strain_stiffness(material, state, parts->linear);
 }
 
 void linear_branch(const linear_parts *parts, const double along[6], double stiffness[36]) {

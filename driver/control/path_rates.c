@@ -17,8 +17,7 @@ hypofab_status path_rates(const hypofab_material *material, const hypofab_step *
   *along = solved.along;
   memcpy(rate->strain, solved.stretching, sizeof rate->strain);
   memcpy(rate->material.stress, solved.stress_rate, sizeof solved.stress_rate);
-  hypofab_delta_rate(material, state->material.delta, solved.stretching, branch, rate->material.delta);
-  rate->material.void_ratio = (1.0 + state->material.void_ratio) * tensor_trace(solved.stretching);
+  hypofab_variable_rates(material, &state->material, solved.stretching, branch, rate->material.variable);
   path_sums(state, solved.stretching, rate);
   return HYPOFAB_OK;
 }

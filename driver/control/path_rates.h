@@ -3,7 +3,7 @@
 #define HYPOFAB_DRIVER_PATH_RATES_H
 
 #include "driver/control/control.h"
-#include "driver/quantity/quantity.h"
+#include "driver/quantity/state.h"
 
 /** Rates of the path length and the work at a strain rate. */
 void path_sums(const test_state *state, const double D[6], test_state *rate);

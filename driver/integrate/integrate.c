@@ -14,6 +14,9 @@
 
 static const long default_max_steps = 1000000;
 
+/* Void ratio and further variables are of order 1: below this part of it their error is absolute. */
+static const double small_number = 1e-3;
+
 /*
  * By hypofab_integrator; the names are those of decks. Multistep methods take many small steps after each reversal,
  * whose errors add up: the same agreement needs a finer default tolerance.
@@ -32,6 +35,8 @@ const char *hypofab_integrator_name(hypofab_integrator integrator) {
   return (unsigned)integrator < sizeof methods / sizeof *methods ? methods[integrator].name : NULL;
 }
 
+static size_t state_size(const integrator *it) { return (size_t)it->length * sizeof(double); }
+
 int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   (void)time;
   integrator *it = user;
@@ -40,7 +45,7 @@ int integrator_rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   it->obstacle =
       path_rates(it->material, it->step, it->branch, state, (test_state *)N_VGetArrayPointer(ydot), &it->along);
   if (it->obstacle) return 1; /* recoverable: a smaller step may stay where rates exist */
-  it->evaluated = *state;
+  memcpy(&it->evaluated, state, state_size(it));
   return 0;
 }
 
@@ -58,7 +63,7 @@ void integrator_say_nothing(int code, const char *module, const char *function, 
 #endif
 
 int integrator_create_linear_solver(integrator *it) {
-  it->matrix = SUNDenseMatrix(N_STATE, N_STATE, it->context);
+  it->matrix = SUNDenseMatrix(it->length, it->length, it->context);
   if (it->matrix) it->linear_solver = SUNLinSol_Dense(it->y, it->matrix, it->context);
   return it->linear_solver ? 0 : -1;
 }
@@ -67,14 +72,15 @@ void integrator_absolute(const hypofab_material *material, double tolerance, con
                          test_state *absolute) {
   double largest_stress = 0.0;
   for (int i = 0; i < 6; i++) largest_stress = fmax(largest_stress, fabs(state->material.stress[i]));
-  /* The strain over which stress and delta change. */
-  const double strain_scale = material->m_R > 0.5 ? material->R : 1e-4;
+  const hypofab_model_info *info = hypofab_model_describe(material->model);
+  const double strain_scale = hypofab_strain_scale(material);
   for (int i = 0; i < 6; i++) {
     absolute->material.stress[i] = tolerance * largest_stress;
-    absolute->material.delta[i] = tolerance * strain_scale;
     absolute->strain[i] = tolerance * strain_scale;
   }
-  absolute->material.void_ratio = tolerance * 1e-3;
+  for (int i = 0; i < info->n_numbers; i++)
+    absolute->material.variable[i] =
+        tolerance * (info->memory >= 0 && i >= info->memory && i < info->memory + 6 ? strain_scale : small_number);
   /* The sums follow the rest; near a peak, where strain grows without bound, they must not hold it back. */
   absolute->path = 1.0;
   absolute->work = largest_stress;
@@ -94,12 +100,13 @@ hypofab_status integrator_create(const hypofab_material *material, const hypofab
   if (!it) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for an integrator");
   it->method = methods[options->integrator].method;
   it->material = material;
+  it->length = state_length(material);
   it->tolerance = options->tolerance > 0.0 ? fmax(options->tolerance, 1e-13) : methods[options->integrator].tolerance;
   it->max_steps = options->max_steps > 0 ? options->max_steps : default_max_steps;
   if (integrator_context(&it->context) == 0) {
-    it->y = N_VNew_Serial(N_STATE, it->context);
-    it->absolute = N_VNew_Serial(N_STATE, it->context);
-    it->inside = N_VNew_Serial(N_STATE, it->context);
+    it->y = N_VNew_Serial(it->length, it->context);
+    it->absolute = N_VNew_Serial(it->length, it->context);
+    it->inside = N_VNew_Serial(it->length, it->context);
   }
   if (!it->y || !it->absolute || !it->inside) {
     integrator_free(it);
@@ -132,14 +139,14 @@ void integrator_set_step(integrator *it, const hypofab_step *step, hypofab_branc
  */
 static int stands_at(const integrator *it, double time, const test_state *state) {
   return it->method->interpolate && it->memory && !it->is_fresh && time == it->now &&
-         memcmp(N_VGetArrayPointer(it->y), state, sizeof *state) == 0;
+         memcmp(N_VGetArrayPointer(it->y), state, state_size(it)) == 0;
 }
 
 void integrator_new_leg(integrator *it) { it->step_count = 0; }
 
 hypofab_status integrator_start(integrator *it, double time, const test_state *state, double first_step) {
   if (stands_at(it, time, state)) return HYPOFAB_OK;
-  memcpy(N_VGetArrayPointer(it->y), state, sizeof *state);
+  memcpy(N_VGetArrayPointer(it->y), state, state_size(it));
   integrator_absolute(it->material, it->tolerance, state, (test_state *)N_VGetArrayPointer(it->absolute));
   it->obstacle = HYPOFAB_OK;
   it->is_fresh = 0;
@@ -164,7 +171,7 @@ static hypofab_status explain(integrator *it, int flag) {
 hypofab_status integrator_advance(integrator *it, double stop, double *time, test_state *state) {
   if (stop - *time <= 8.0 * DBL_EPSILON * fabs(stop)) { /* nothing changes within the rounding of time */
     *time = stop;
-    memcpy(state, N_VGetArrayPointer(it->y), sizeof *state);
+    memcpy(state, N_VGetArrayPointer(it->y), state_size(it));
     return HYPOFAB_OK;
   }
   if (++it->step_count > it->max_steps)
@@ -181,7 +188,7 @@ hypofab_status integrator_advance(integrator *it, double stop, double *time, tes
                         : hypofab_fail(HYPOFAB_NOT_CONTROLLABLE,
                                        "the strain rate grows without bound under the prescribed rates");
   *time = reached;
-  memcpy(state, N_VGetArrayPointer(it->y), sizeof *state);
+  memcpy(state, N_VGetArrayPointer(it->y), state_size(it));
   return HYPOFAB_OK;
 }
 
@@ -189,7 +196,7 @@ hypofab_status integrator_reach(integrator *it, double from, const test_state *s
   if (it->method->interpolate && from >= it->before && to <= it->now && !it->is_fresh) {
     if (it->method->interpolate(it, to, it->inside) < 0)
       return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the integrator knows no state at time %g", to);
-    memcpy(state, N_VGetArrayPointer(it->inside), sizeof *state);
+    memcpy(state, N_VGetArrayPointer(it->inside), state_size(it));
     return HYPOFAB_OK;
   }
   /* A part of a step that was accepted is accepted too, most of the time. */
@@ -202,14 +209,14 @@ hypofab_status integrator_reach(integrator *it, double from, const test_state *s
 int integrator_glimpse(integrator *it, double time, test_state *state) {
   if (it->is_fresh || time < it->before || time > it->now || !(it->before < it->now)) return 0;
   if (it->method->glimpse(it, time, it->inside) < 0) return 0;
-  memcpy(state, N_VGetArrayPointer(it->inside), sizeof *state);
+  memcpy(state, N_VGetArrayPointer(it->inside), state_size(it));
   return 1;
 }
 
 double integrator_tolerance(const integrator *it) { return it->tolerance; }
 
 int integrator_knows_along(const integrator *it, const test_state *state, double *along) {
-  if (it->obstacle || memcmp(&it->evaluated, state, sizeof *state) != 0) return 0;
+  if (it->obstacle || memcmp(&it->evaluated, state, state_size(it)) != 0) return 0;
   *along = it->along;
   return 1;
 }

@@ -6,7 +6,7 @@
 #define HYPOFAB_DRIVER_INTEGRATE_H
 
 #include "driver/control/control.h"
-#include "driver/quantity/quantity.h"
+#include "driver/quantity/state.h"
 
 /** An integrator; opaque. */
 typedef struct integrator integrator;

@@ -20,8 +20,8 @@ static double jump_factor(hypofab_branch branch, const double direction[6], cons
   }
 }
 
-/* F(y, y'), laid out like the state: the stress rate, the rate of delta, that of e, and the conditions for the strain.
- */
+/* F(y, y'), laid out like the state: the stress rate, the rates of the state variables, and the conditions for the
+ * strain. */
 static int residual(sunrealtype time, N_Vector y, N_Vector yp, N_Vector rest, void *user) {
   (void)time;
   integrator *it = user;
@@ -29,13 +29,13 @@ static int residual(sunrealtype time, N_Vector y, N_Vector yp, N_Vector rest, vo
   const test_state *rate = (const test_state *)N_VGetArrayPointer(yp);
   test_state *left = (test_state *)N_VGetArrayPointer(rest);
   const double *D = rate->strain, *stress_rate = rate->material.stress;
-  double reversal[36], jump[6], direction[6], delta_rate[6], prescribed[6];
+  double reversal[36], jump[6], direction[6], prescribed[6], variable_rate[HYPOFAB_MAX_NUMBERS];
   hypofab_branch model;
   it->n_evaluations++;
   it->obstacle = hypofab_linear_parts(it->material, &state->material, reversal, jump, direction, &model);
   if (it->obstacle) return 1; /* recoverable: a smaller step may stay inside the domain */
   const double factor = jump_factor(it->branch, direction, D);
-  hypofab_delta_rate(it->material, state->material.delta, D, it->branch, delta_rate);
+  hypofab_variable_rates(it->material, &state->material, D, it->branch, variable_rate);
   course_rates(it->step, state->material.stress, prescribed);
   for (int i = 0; i < 6; i++) {
     double along = factor * jump[i], condition = -prescribed[i], scale = 0.0;
@@ -46,10 +46,10 @@ static int residual(sunrealtype time, N_Vector y, N_Vector yp, N_Vector rest, vo
       scale = fmax(scale, fmax(fabs(on_stress) * it->stiffness, fabs(on_strain)));
     }
     left->material.stress[i] = (stress_rate[i] - along) / it->stiffness;
-    left->material.delta[i] = rate->material.delta[i] - delta_rate[i];
     left->strain[i] = condition / scale;
   }
-  left->material.void_ratio = rate->material.void_ratio - (1.0 + state->material.void_ratio) * (D[0] + D[1] + D[2]);
+  for (int i = 0; i < it->length - AT_NUMBERS; i++)
+    left->material.variable[i] = rate->material.variable[i] - variable_rate[i];
   test_state sums;
   path_sums(state, D, &sums);
   left->path = rate->path - sums.path;

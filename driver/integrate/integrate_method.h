@@ -35,6 +35,7 @@ extern const integrator_method integrator_erk, integrator_cvode, integrator_ida;
 struct integrator {
   const integrator_method *method;
   const hypofab_material *material;
+  int length; /* of the state as a vector */
   const hypofab_step *step;
   hypofab_branch branch;
   double tolerance;

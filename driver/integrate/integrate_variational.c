@@ -21,7 +21,8 @@ struct variational_integrator {
   double tolerance, now;
   long max_steps, n_evaluations;
   SUNContext context;
-  N_Vector y, absolute; /* the state and N_STATE rows of derivatives */
+  int length;           /* of the state */
+  N_Vector y, absolute; /* the state and as many rows of derivatives */
   void *memory;
 };
 
@@ -31,8 +32,8 @@ static int rates(sunrealtype time, N_Vector y, N_Vector ydot, void *user) {
   const double *from = N_VGetArrayPointer(y);
   double *to = N_VGetArrayPointer(ydot);
   it->n_evaluations++;
-  return variational_rates(it->system, (const test_state *)from, from + N_STATE, (test_state *)to, to + N_STATE) ? 1
-                                                                                                                 : 0;
+  const int length = it->length;
+  return variational_rates(it->system, (const test_state *)from, from + length, (test_state *)to, to + length) ? 1 : 0;
 }
 
 hypofab_status variational_create(const variational *system, const double *scale, double tolerance, long max_steps,
@@ -42,7 +43,8 @@ hypofab_status variational_create(const variational *system, const double *scale
   *created = it;
   if (it) it->scale = malloc((n + 1) * sizeof *scale);
   if (it && it->scale && integrator_context(&it->context) == 0) {
-    const sunindextype length = N_STATE * (sunindextype)(n + 1);
+    it->length = state_length(system->material);
+    const sunindextype length = it->length * (sunindextype)(n + 1);
     it->y = N_VNew_Serial(length, it->context);
     it->absolute = N_VNew_Serial(length, it->context);
   }
@@ -80,13 +82,13 @@ static int create(variational_integrator *it, double time) {
 
 hypofab_status variational_start(variational_integrator *it, double time, const test_state *state,
                                  const double *change) {
-  const int n = it->system->n;
+  const int n = it->system->n, length = it->length;
   double *y = N_VGetArrayPointer(it->y), *absolute = N_VGetArrayPointer(it->absolute);
-  memcpy(y, state, sizeof *state);
-  memcpy(y + N_STATE, change, N_STATE * (size_t)n * sizeof *change);
+  memcpy(y, state, (size_t)length * sizeof *y);
+  memcpy(y + length, change, (size_t)(length * n) * sizeof *change);
   integrator_absolute(it->system->material, it->tolerance, state, (test_state *)absolute);
-  for (int i = 0; i < N_STATE; i++)
-    for (int k = 0; k < n; k++) absolute[N_STATE + i * n + k] = absolute[i] * it->scale[k];
+  for (int i = 0; i < length; i++)
+    for (int k = 0; k < n; k++) absolute[length + i * n + k] = absolute[i] * it->scale[k];
   it->now = time;
   const double longest = course_longest_step(it->system->step);
   int failed = it->memory ? ERKStepReInit(it->memory, rates, time, it->y) : create(it, time);
@@ -104,15 +106,15 @@ hypofab_status variational_reach(variational_integrator *it, double time, double
     if (flag < 0) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the derivatives grow without bound (code %d)", flag);
     it->now = reached;
   }
-  memcpy(change, N_VGetArrayPointer(it->y) + N_STATE, N_STATE * (size_t)it->system->n * sizeof *change);
+  memcpy(change, N_VGetArrayPointer(it->y) + it->length, (size_t)(it->length * it->system->n) * sizeof *change);
   return HYPOFAB_OK;
 }
 
 void variational_here(const variational_integrator *it, double *time, test_state *state, double *change) {
   const double *y = N_VGetArrayPointer(it->y);
   *time = it->now;
-  memcpy(state, y, sizeof *state);
-  memcpy(change, y + N_STATE, N_STATE * (size_t)it->system->n * sizeof *change);
+  memcpy(state, y, (size_t)it->length * sizeof *y);
+  memcpy(change, y + it->length, (size_t)(it->length * it->system->n) * sizeof *change);
 }
 
 long variational_evaluations(const variational_integrator *it) { return it->n_evaluations; }

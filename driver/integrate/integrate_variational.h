@@ -25,13 +25,13 @@ hypofab_status variational_create(const variational *system, const double *scale
 /** Free an integrator; NULL is allowed. */
 void variational_free(variational_integrator *it);
 
-/** Start, or start again, from a state and its derivatives (N_STATE rows of n). */
+/** Start, or start again, from a state and its derivatives (a row of n for each number of the state). */
 hypofab_status variational_start(variational_integrator *it, double time, const test_state *state,
                                  const double *change);
 
 /**
  * @brief Go on to a time.
- * @param change N_STATE rows of n, filled
+ * @param change rows of n, filled
  * @return HYPOFAB_NOT_CONTROLLABLE when the derivatives cannot be followed that far
  */
 hypofab_status variational_reach(variational_integrator *it, double time, double *change);

@@ -53,7 +53,7 @@ static void keep(hypofab_answer *answer, const double loading[6], const double u
 /* What answers a rate in one direction. */
 static hypofab_status answer_rate(const probe_job *job, const double direction[6], double response[6]) {
   if (job->options.imposed == HYPOFAB_IMPOSE_STRAIN) {
-    hypofab_state rate = {{0}, {0}, 0.0};
+    hypofab_state rate = {0};
     hypofab_status status = hypofab_rate(job->material, job->state, direction, &rate, NULL);
     memcpy(response, rate.stress, sizeof rate.stress);
     return status;

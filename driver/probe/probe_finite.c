@@ -9,16 +9,16 @@
 
 /* Points as hypofab_update_batch wants them, in one allocation. */
 typedef struct batch {
-  double *stress, *delta, *void_ratio, *strain;
+  double *stress, *numbers, *strain; /* six, as many as the model has, six of each point */
   int *status;
 } batch;
 
-static int make_batch(int n, batch *b) {
+static int make_batch(int n, int n_numbers, batch *b) {
   const size_t count = (size_t)n;
-  b->stress = malloc(19 * count * sizeof *b->stress);
+  b->stress = malloc((size_t)(12 + n_numbers) * count * sizeof *b->stress);
   b->status = malloc(count * sizeof *b->status);
   if (!b->stress || !b->status) return 0;
-  b->delta = b->stress + 6 * count, b->strain = b->stress + 12 * count, b->void_ratio = b->stress + 18 * count;
+  b->strain = b->stress + 6 * count, b->numbers = b->stress + 12 * count;
   return 1;
 }
 
@@ -33,26 +33,25 @@ static void read_stress(const probe_job *job, const batch *b, int n, int i, doub
 }
 
 hypofab_status probe_strains(const probe_job *job, int n, hypofab_answer *answers) {
+  const hypofab_model *model = job->material->model;
+  const hypofab_model_info *info = hypofab_model_describe(model);
   batch b = {0};
-  if (!make_batch(n, &b)) {
+  if (!make_batch(n, info->n_numbers, &b)) {
     free_batch(&b);
     return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for %d probes", n);
   }
   for (int i = 0; i < n; i++) {
     for (int k = 0; k < 6; k++) {
       b.stress[k * n + i] = job->state->stress[k];
-      b.delta[k * n + i] = job->state->delta[k];
       b.strain[k * n + i] = job->options.size * answers[i].direction[k];
     }
-    b.void_ratio[i] = job->state->void_ratio;
+    for (int k = 0; k < info->n_numbers; k++) b.numbers[k * n + i] = job->state->variable[k];
   }
-  const hypofab_points points = {.count = (size_t)n,
-                                 .stride = (size_t)n,
-                                 .stress = b.stress,
-                                 .delta = b.delta,
-                                 .void_ratio = b.void_ratio,
-                                 .strain = b.strain,
-                                 .status = b.status};
+  hypofab_points points = {
+      .count = (size_t)n, .stride = (size_t)n, .stress = b.stress, .strain = b.strain, .status = b.status};
+  hypofab_variable_info variable;
+  for (int v = 0; v < info->n_variables && !hypofab_model_variable(model, v, &variable); v++)
+    points.variable[v] = b.numbers + (size_t)variable.place * (size_t)n;
   const hypofab_update_options options = {.tolerance = job->options.tolerance};
   hypofab_update_batch(job->material, &options, &points, job->options.threads, NULL);
   for (int i = 0; i < n; i++) {

@@ -1,8 +1,8 @@
 /* Directional stiffness, second-order work and flow direction of one probe. */
 #include <math.h>
 
+#include "driver/quantity/state.h"
 #include "driver/tensor.h"
-#include "hypofab.h"
 
 static double angle_between_deviators(const double a[6], const double b[6]) {
   double s[6], t[6], u[6], v[6];
@@ -19,8 +19,8 @@ static double angle_between_deviators(const double a[6], const double b[6]) {
   return 2.0 * atan2(tensor_norm(v), tensor_norm(u)) * 180.0 / acos(-1.0);
 }
 
-void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_state *state, const hypofab_answer *answer,
-                           hypofab_probe_measures *measures) {
+void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_material *material, const hypofab_state *state,
+                           const hypofab_answer *answer, hypofab_probe_measures *measures) {
   const double size = tensor_norm(answer->response);
   const double *flow = isnan(answer->irrecoverable[0]) ? answer->response : answer->irrecoverable;
   double deviator[6];
@@ -33,5 +33,5 @@ void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_state *state, 
     measures->dilatancy = tensor_trace(flow) / (sqrt(2.0 / 3.0) * tensor_norm(deviator));
   if (!isfinite(measures->dilatancy)) measures->dilatancy = NAN;
   measures->angle_to_stress = angle_between_deviators(flow, state->stress);
-  measures->angle_to_delta = angle_between_deviators(flow, state->delta);
+  measures->angle_to_delta = angle_between_deviators(flow, memory_of(material, state));
 }

@@ -9,12 +9,10 @@
  *
  * The test itself places a change of branch to a part of a step, which is enough for the state: both branches have the
  * same rates there. Their derivatives differ, the more the smaller delta is. A reversal straight through delta = 0, the
- * usual one of an oedometer test, has the limit of small delta: near it delta = a d + b, with d the direction of strain
- * and b normal to it, obeys R rho' = 1 - rho^beta_r and b ~ (1 - rho^beta_r)^(1/beta_r) (theory.md, section 4), so that
- * derivatives of a and b change by the factors 1 - rho^beta_r and (1 - rho^beta_r)^(1/beta_r) on the way to rho.
+ * usual one of an oedometer test, has the limit of small delta, which the model knows (hypofab_memory_growth).
  * @param v      its branch is the one that is left
  * @param time, state, change in: near the change; out: at it, or a little past delta = 0
- * @param change_rate N_STATE rows of n, for work
+ * @param change_rate as many numbers as change, for work
  * @return as control_solve
  */
 hypofab_status branch_change(const variational *v, double *time, test_state *state, double *change,

@@ -1,23 +1,19 @@
 #include "driver/sensitivity/sensitivity.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
 #include "driver/control/path_rates.h"
 #include "driver/integrate/integrate_variational.h"
+#include "driver/quantity/table.h"
 #include "driver/sensitivity/branch_change.h"
-#include "driver/sensitivity/quantity_derivative.h"
 #include "driver/tensor.h"
 
 /* Of the integrator between two rows or events: beyond it the derivatives grow without bound. Some hundred are usual.
  */
 static const long most_steps = 50000;
-
-/* Place of R among the parameters. */
-enum { R_PLACE = offsetof(hypofab_material, R) / sizeof(double) };
 
 /* One number for each variation. */
 typedef double *numbers;
@@ -27,10 +23,11 @@ struct sensitivity {
   variational_integrator *it;
   hypofab_sensitivity_sink sink;
   int n;
+  int length;          /* of the state as a vector */
   int is_lost;         /* the derivatives could not be followed; they are NaN from here on */
   int is_running;      /* the integrator stands somewhere in the present leg */
   double *memory;      /* of all numbers below */
-  numbers change;      /* N_STATE rows: derivatives of the state at constant time since the start of the leg */
+  numbers change;      /* `length` rows: derivatives of the state at constant time since the start of the leg */
   numbers change_rate; /* as many: for work */
   numbers clock;       /* of the time at which the leg started */
   numbers moment;      /* how the present place moves in time since then */
@@ -39,7 +36,7 @@ struct sensitivity {
   sensitivity_aim aims_at;
   numbers duration, row, spacing; /* of a timed leg; of the value of the last row; of the distance between rows */
   numbers start[HYPOFAB_MAX_STOPS], reversal[HYPOFAB_MAX_STOPS]; /* of the stops' quantities there */
-  numbers observed;                                              /* N_STATE rows: of observer.start */
+  numbers observed;                                              /* `length` rows: of observer.start */
   numbers pressure, reference_pressure, p;                       /* of the observer */
   double p_before;                                               /* observer.p in the last step */
   numbers results;                                               /* what the sink gets */
@@ -52,7 +49,7 @@ static size_t take(numbers *place, double *memory, size_t used, size_t length) {
 
 /* Give every array its place; the number of doubles in all. */
 static size_t lay_out(sensitivity *s, double *memory) {
-  const size_t n = (size_t)s->n;
+  const size_t n = (size_t)s->n, length = (size_t)s->length;
   size_t used = 0;
   numbers *const single[] = {&s->clock,    &s->moment,      &s->aim,     &s->step_clock, &s->origin,
                              &s->duration, &s->row,         &s->spacing, &s->pressure,   &s->reference_pressure,
@@ -60,10 +57,10 @@ static size_t lay_out(sensitivity *s, double *memory) {
   for (size_t i = 0; i < sizeof single / sizeof *single; i++) used = take(single[i], memory, used, n);
   for (int i = 0; i < HYPOFAB_MAX_STOPS; i++) used = take(&s->start[i], memory, used, n);
   for (int i = 0; i < HYPOFAB_MAX_STOPS; i++) used = take(&s->reversal[i], memory, used, n);
-  used = take(&s->change, memory, used, N_STATE * n);
-  used = take(&s->change_rate, memory, used, N_STATE * n);
-  used = take(&s->observed, memory, used, N_STATE * n);
-  used = take(&s->system.parameter, memory, used, HYPOFAB_N_PARAMETERS * n);
+  used = take(&s->change, memory, used, length * n);
+  used = take(&s->change_rate, memory, used, length * n);
+  used = take(&s->observed, memory, used, length * n);
+  used = take(&s->system.parameter, memory, used, HYPOFAB_MAX_PARAMETERS * n);
   used = take(&s->system.scratch, memory, used, 6 * n);
   return take(&s->results, memory, used, HYPOFAB_N_QUANTITIES * n);
 }
@@ -71,13 +68,21 @@ static size_t lay_out(sensitivity *s, double *memory) {
 /* By which part of itself what the test starts from changes. */
 static double relative_size(const hypofab_material *material, const hypofab_state *initial,
                             const hypofab_variation *v) {
-  const double *value = (const double *)material, *change = (const double *)&v->material;
-  const double stress = tensor_norm(initial->stress);
-  double size = fabs(v->water) + tensor_norm(v->initial.stress) / stress + fabs(v->material.p_t) / stress +
-                fabs(v->initial.void_ratio) / initial->void_ratio;
-  if (material->m_R > 0.5) size += tensor_norm(v->initial.delta) / material->R;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++)
-    if (value[i] != 0.0) size += fabs(change[i] / value[i]);
+  const hypofab_model_info *info = hypofab_model_describe(material->model);
+  const double stress = tensor_norm(initial->stress), largest = hypofab_memory_size(material);
+  double size = fabs(v->water) + tensor_norm(v->initial.stress) / stress;
+  if (largest > 0.0) size += tensor_norm(memory_of(material, &v->initial)) / largest;
+  for (int i = 0; i < info->n_numbers; i++) {
+    const int is_memory = info->memory >= 0 && i >= info->memory && i < info->memory + 6;
+    if (!is_memory && initial->variable[i] != 0.0) size += fabs(v->initial.variable[i] / initial->variable[i]);
+  }
+  for (int i = 0; i < info->n_parameters; i++) {
+    hypofab_parameter_info parameter;
+    if (material->value[i] != 0.0)
+      size += fabs(v->parameter[i] / material->value[i]);
+    else if (!hypofab_model_parameter(material->model, i, &parameter) && strcmp(parameter.unit, "stress") == 0)
+      size += fabs(v->parameter[i]) / stress; /* a stress that is zero is small against the stress */
+  }
   return size > 0.0 ? size : 1.0;
 }
 
@@ -90,6 +95,7 @@ hypofab_status sensitivity_create(const run *r, const hypofab_state *initial, in
   sensitivity *s = calloc(1, sizeof *s);
   if (!s) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for %d derivatives", n);
   s->n = s->system.n = n;
+  s->length = state_length(material);
   s->sink = sink;
   s->system.material = material;
   s->memory = calloc(lay_out(s, NULL) + 1, sizeof *s->memory);
@@ -99,9 +105,9 @@ hypofab_status sensitivity_create(const run *r, const hypofab_state *initial, in
   }
   lay_out(s, s->memory);
   for (int k = 0; k < n; k++) {
-    const double *parameter = (const double *)&variations[k].material, *state = (const double *)&variations[k].initial;
-    for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) s->system.parameter[i * n + k] = parameter[i];
-    for (int i = 0; i < (int)(sizeof(hypofab_state) / sizeof *state); i++) s->change[i * n + k] = state[i];
+    const double *state = (const double *)&variations[k].initial;
+    for (int i = 0; i < HYPOFAB_MAX_PARAMETERS; i++) s->system.parameter[i * n + k] = variations[k].parameter[i];
+    for (int i = AT_STRESS; i < s->length; i++) s->change[i * n + k] = state[i - AT_STRESS];
     s->system.water[k] = variations[k].water;
     scale[k] = relative_size(material, initial, &variations[k]);
   }
@@ -126,14 +132,15 @@ long sensitivity_evaluations(const sensitivity *s) { return s ? variational_eval
 /* All that quantities depend on, for variation k, at the present place moved by its moment. */
 static quantity_change change_of(const sensitivity *s, int k) {
   quantity_change c = {.time = s->clock[k] + s->moment[k],
-                       .R = s->system.parameter[R_PLACE * s->n + k],
                        .water = s->system.water[k],
                        .pressure = s->pressure[k],
                        .reference_pressure = s->reference_pressure[k],
                        .p = s->p[k]};
+  const int largest = hypofab_model_describe(s->system.material->model)->memory_parameter;
+  if (largest >= 0) c.memory_size = s->system.parameter[largest * s->n + k];
   double *state = (double *)&c.state, *start = (double *)&c.start;
   const double *rate = (const double *)&s->rate;
-  for (int i = 0; i < N_STATE; i++) {
+  for (int i = 0; i < s->length; i++) {
     state[i] = s->change[i * s->n + k];
     if (s->moment[k] != 0.0) state[i] += s->moment[k] * rate[i];
     start[i] = s->observed[i * s->n + k];
@@ -144,10 +151,11 @@ static quantity_change change_of(const sensitivity *s, int k) {
 /* Derivatives of one quantity at the present place. */
 static void derive(const run *r, hypofab_quantity quantity, numbers derivative) {
   const sensitivity *s = r->sensitivity;
+  const quantity_place at = {&r->observer, r->time, &r->state};
   const principal_axes axes = principal_axes_of(r->state.material.stress);
   for (int k = 0; k < s->n; k++) {
     const quantity_change change = change_of(s, k);
-    derivative[k] = quantity_derivative(quantity, &r->observer, &r->state, &axes, &change);
+    derivative[k] = quantity_derivative(quantity, &at, &axes, &change);
   }
 }
 
@@ -172,12 +180,13 @@ static void meet(run *r, hypofab_quantity quantity, const double *target) {
   stay(s);
   find_rates(r);
   if (s->is_lost) return;
+  const quantity_place at = {&r->observer, r->time, &r->state};
   const principal_axes axes = principal_axes_of(r->state.material.stress);
   const quantity_change along = {.time = 1.0, .state = s->rate};
-  const double rate = quantity_derivative(quantity, &r->observer, &r->state, &axes, &along);
+  const double rate = quantity_derivative(quantity, &at, &axes, &along);
   for (int k = 0; k < s->n; k++) {
     const quantity_change change = change_of(s, k);
-    const double gap = target[k] - quantity_derivative(quantity, &r->observer, &r->state, &axes, &change);
+    const double gap = target[k] - quantity_derivative(quantity, &at, &axes, &change);
     s->moment[k] = gap == 0.0 ? 0.0 : gap / rate;
   }
 }
@@ -193,7 +202,7 @@ void sensitivity_enter_step(run *r) {
   sensitivity *s = r->sensitivity;
   if (!s) return;
   const size_t size = (size_t)s->n * sizeof *s->p;
-  memcpy(s->observed, s->change, N_STATE * size);
+  memcpy(s->observed, s->change, (size_t)s->length * size);
   memcpy(s->step_clock, s->clock, size);
   s->aims_at = AIM_FIXED;
   if (!(r->observer.p > 0.0)) {
@@ -300,7 +309,7 @@ void sensitivity_end_leg(run *r, const hypofab_step *leg, const schedule *schedu
   const double *rate = (const double *)&s->rate;
   for (int k = 0; k < s->n; k++) {
     if (s->moment[k] == 0.0) continue;
-    for (int i = 0; i < N_STATE; i++) s->change[i * s->n + k] += s->moment[k] * rate[i];
+    for (int i = 0; i < s->length; i++) s->change[i * s->n + k] += s->moment[k] * rate[i];
     s->clock[k] += s->moment[k];
   }
   stay(s);
@@ -310,14 +319,14 @@ void sensitivity_end_leg(run *r, const hypofab_step *leg, const schedule *schedu
 int sensitivity_deliver(run *r, const hypofab_row *row) {
   sensitivity *s = r->sensitivity;
   if (row->event >= 0) sensitivity_catch_up(r);
+  const quantity_place at = {&r->observer, r->time, &r->state};
   const principal_axes axes = principal_axes_of(r->state.material.stress);
   for (int k = 0; k < s->n; k++) {
     double *derivative = s->results + k * HYPOFAB_N_QUANTITIES;
     const quantity_change change = change_of(s, k);
     for (int i = 0; i < HYPOFAB_N_QUANTITIES; i++)
-      derivative[i] = s->is_lost || row->event < 0 || i >= HYPOFAB_FIRST_STABILITY
-                          ? NAN
-                          : quantity_derivative((hypofab_quantity)i, &r->observer, &r->state, &axes, &change);
+      derivative[i] =
+          s->is_lost || row->event < 0 ? NAN : quantity_derivative((hypofab_quantity)i, &at, &axes, &change);
   }
   stay(s);
   return s->sink ? s->sink(row, s->results, r->user) : 0;

@@ -1,66 +1,108 @@
 /* Element tests with derivatives: the public calls, and what variations are known by name. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
 #include "driver/step/element_test.h"
 #include "driver/tensor.h"
 
-/* Behind the parameters of the model: the initial state, by the names of its quantities. */
-static const char *const other_names[] = {"K_w",      "void_ratio", "p",        "sig_xx",   "sig_yy",
-                                          "sig_zz",   "sig_xy",     "sig_xz",   "sig_yz",   "delta_xx",
-                                          "delta_yy", "delta_zz",   "delta_xy", "delta_xz", "delta_yz"};
-enum { N_MODEL_PARAMETERS = 14, N_OTHERS = sizeof other_names / sizeof *other_names };
-
-const char *hypofab_variation_name(int index) {
+/* The parameters of a model that are not the host's. */
+static int n_model_parameters(const hypofab_model *model) {
+  const int all = hypofab_model_describe(model)->n_parameters;
   hypofab_parameter_info info;
-  if (index >= N_MODEL_PARAMETERS && index < N_MODEL_PARAMETERS + N_OTHERS)
-    return other_names[index - N_MODEL_PARAMETERS];
-  return index >= 0 && index < N_MODEL_PARAMETERS && !hypofab_parameter_describe(index, &info) ? info.name : NULL;
+  int n = 0;
+  for (int i = 0; i < all && !hypofab_model_parameter(model, i, &info); i++) n += info.role != HYPOFAB_OF_HOST;
+  return n;
+}
+
+/* Parameter number index of those, its place in the material. */
+static const char *model_parameter(const hypofab_model *model, int index, int *place) {
+  const int all = hypofab_model_describe(model)->n_parameters;
+  hypofab_parameter_info info;
+  for (*place = 0; *place < all && !hypofab_model_parameter(model, *place, &info); ++*place)
+    if (info.role != HYPOFAB_OF_HOST && index-- == 0) return info.name;
+  return NULL;
+}
+
+/* What follows the parameters: pore water, and the initial state by the names of its quantities. */
+static const char *other_name(const hypofab_model *model, int index) {
+  static const char *const first[] = {"K_w", "void_ratio", "p"};
+  static _Thread_local char text[HYPOFAB_QUANTITY_NAME_SIZE];
+  const hypofab_model_info *info = hypofab_model_describe(model);
+  enum { N_FIRST = sizeof first / sizeof *first };
+  if (index < N_FIRST) return first[index];
+  index -= N_FIRST;
+  for (int i = HYPOFAB_SIG_XX; i < HYPOFAB_N_QUANTITIES; i++) {
+    const int is_memory = i >= HYPOFAB_DELTA_XX && i <= HYPOFAB_DELTA_YZ;
+    if (i > HYPOFAB_DELTA_YZ && i < HYPOFAB_FIRST_NUMBER) continue;
+    if (is_memory && info->memory < 0) continue;
+    const char *name = hypofab_model_quantity_name(model, (hypofab_quantity)i, text);
+    if (name && index-- == 0) return name;
+  }
+  return NULL;
+}
+
+const char *hypofab_variation_name(const hypofab_model *model, int index) {
+  int place;
+  const int n = n_model_parameters(model);
+  return index < n ? model_parameter(model, index, &place) : other_name(model, index - n);
+}
+
+static hypofab_status refuse_name(const hypofab_model *model, const char *name) {
+  char known[HYPOFAB_MESSAGE_SIZE] = "";
+  size_t used = 0;
+  const char *other;
+  for (int i = 0; (other = hypofab_variation_name(model, i)) && used < sizeof known; i++)
+    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", other);
+  return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, "name",
+                            "'%s' is no parameter or number of the initial state, expected one of %s", name, known);
+}
+
+/* The number of the initial state that a quantity names. */
+static double *initial_number(const hypofab_model_info *info, hypofab_quantity quantity, hypofab_state *initial) {
+  if (quantity >= HYPOFAB_SIG_XX && quantity <= HYPOFAB_SIG_YZ) return &initial->stress[quantity - HYPOFAB_SIG_XX];
+  if (quantity == HYPOFAB_VOID_RATIO) return &initial->variable[info->void_ratio];
+  if (quantity >= HYPOFAB_DELTA_XX && quantity <= HYPOFAB_DELTA_YZ)
+    return &initial->variable[info->memory + (int)quantity - HYPOFAB_DELTA_XX];
+  return &initial->variable[quantity - HYPOFAB_FIRST_NUMBER];
 }
 
 hypofab_status hypofab_variation_of(const char *name, const hypofab_material *material, hypofab_variation *variation) {
+  if (!name || !material || !material->model)
+    return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "expected a name and a material of a model");
+  const hypofab_model_info *info = hypofab_model_describe(material->model);
   int index = 0;
-  const char *known = hypofab_variation_name(0);
-  while (name && known && strcmp(known, name) != 0) known = hypofab_variation_name(++index);
-  if (!name || !known)
-    return hypofab_fail(
-        HYPOFAB_BAD_ARGUMENT,
-        "'%s' is no parameter or number of the initial state, expected phi_c .. chi, K_w, void_ratio, p, "
-        "sig_xx .. sig_yz or delta_xx .. delta_yz",
-        name ? name : "");
+  const char *known = hypofab_variation_name(material->model, 0);
+  while (known && strcmp(known, name) != 0) known = hypofab_variation_name(material->model, ++index);
+  if (!known) return refuse_name(material->model, name);
   hypofab_variation v = {0};
-  double *parameter = (double *)&v.material;
-  if (index < N_MODEL_PARAMETERS) {
-    parameter[index] = 1.0;
+  int place;
+  if (index < n_model_parameters(material->model) && model_parameter(material->model, index, &place)) {
+    v.parameter[place] = 1.0;
   } else if (strcmp(name, "K_w") == 0) {
-    if (!material || !(material->K_w > 0.0))
-      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "K_w is %g, expected a stiffness above 0 to vary",
-                          material ? material->K_w : 0.0);
-    v.water = 1.0 / material->K_w;
-  } else if (strcmp(name, "void_ratio") == 0) {
-    v.initial.void_ratio = 1.0;
+    const double stiffness = info->pore_water >= 0 ? material->value[info->pore_water] : 0.0;
+    if (!(stiffness > 0.0))
+      return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "K_w is %g, expected a stiffness above 0 to vary", stiffness);
+    v.water = 1.0 / stiffness;
   } else if (strcmp(name, "p") == 0) {
     for (int i = 0; i < 3; i++) v.initial.stress[i] = -1.0;
   } else {
-    const hypofab_quantity quantity = hypofab_quantity_find(name);
-    if (quantity <= HYPOFAB_SIG_YZ)
-      v.initial.stress[quantity - HYPOFAB_SIG_XX] = 1.0;
-    else
-      v.initial.delta[quantity - HYPOFAB_DELTA_XX] = 1.0;
+    *initial_number(info, hypofab_model_quantity_find(material->model, name), &v.initial) = 1.0;
   }
   *variation = v;
   return HYPOFAB_OK;
 }
 
 /* Is a variation finite, and has what it asks for a derivative? */
-static hypofab_status check(const hypofab_state *initial, const hypofab_variation *variation, int number) {
+static hypofab_status check(const hypofab_material *material, const hypofab_state *initial,
+                            const hypofab_variation *variation, int number) {
   double sum = variation->water;
-  const double *parameter = (const double *)&variation->material, *state = (const double *)&variation->initial;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) sum += parameter[i];
+  const double *state = (const double *)&variation->initial;
+  for (int i = 0; i < HYPOFAB_MAX_PARAMETERS; i++) sum += variation->parameter[i];
   for (int i = 0; i < (int)(sizeof variation->initial / sizeof *state); i++) sum += state[i];
   if (!isfinite(sum)) return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "variation %d, expected finite numbers", number);
-  if (tensor_norm(variation->initial.delta) > 0.0 && !(tensor_norm(initial->delta) > 0.0))
+  if (tensor_norm(memory_of(material, &variation->initial)) > 0.0 && !(tensor_norm(memory_of(material, initial)) > 0.0))
     return hypofab_fail(
         HYPOFAB_BAD_ARGUMENT,
         "variation %d changes a delta that is zero, where a test has no derivative; expected another delta", number);
@@ -75,6 +117,6 @@ hypofab_status hypofab_test_sensitivities(const hypofab_material *material, cons
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "%d variations, expected 0 to %d", n_variations, HYPOFAB_MAX_VARIATIONS);
   const wanted_derivatives wanted = {n_variations, variations, sink};
   hypofab_status status = HYPOFAB_OK;
-  for (int k = 0; !status && k < n_variations; k++) status = check(initial, &variations[k], k + 1);
+  for (int k = 0; !status && k < n_variations; k++) status = check(material, initial, &variations[k], k + 1);
   return status ? status : element_test_run(material, initial, steps, n_steps, options, &wanted, NULL, user, outcome);
 }

@@ -9,34 +9,15 @@
 #include "driver/control/path_rates.h"
 #include "driver/tensor.h"
 
-/* Places in a test_state. */
-enum { STRESS = 0, DELTA = 6, VOID_RATIO = 12, STRAIN = 13, PATH = 19, WORK = 20 };
-
-/* A deviator below this part of the stress is that of an isotropic stress; how far to look along the path then. */
-static const double isotropic = 1e-10, ahead = 1e-8;
-
-/* y_i += sum_j by_j,i x_j over rows of n. */
-static void add_product(int n, int columns, const double (*by)[6], const double *restrict x, double *restrict y) {
+/* y_i += sum_j by_j,i x_j over rows of n, for m rates. */
+static void add_product(int n, int m, int columns, const double *by, const double *restrict x, double *restrict y) {
   for (int j = 0; j < columns; j++) {
-    for (int i = 0; i < 6; i++) {
-      const double factor = by[j][i];
+    for (int i = 0; i < m; i++) {
+      const double factor = by[j * m + i];
       if (factor == 0.0) continue;
       for (int k = 0; k < n; k++) y[i * n + k] += factor * x[j * n + k];
     }
   }
-}
-
-/*
- * The state at which derivatives are taken: on the isotropic axis, where the stress factor has a cone, a place just
- * ahead, for the path leaves along one of its slopes.
- */
-static hypofab_state smooth_state(const test_state *state, const test_state *rate) {
-  hypofab_state place = state->material;
-  const double *stress = state->material.stress, *along = rate->material.stress;
-  const double speed = tensor_deviatoric_norm(along), pressure = fabs(tensor_trace(stress)) / 3.0;
-  if (tensor_deviatoric_norm(stress) > isotropic * pressure || speed <= isotropic * tensor_norm(along)) return place;
-  for (int i = 0; i < 6; i++) place.stress[i] += ahead * pressure / speed * along[i];
-  return place;
 }
 
 /* The one stress component that a condition prescribes alone; -1: it does something else. */
@@ -53,7 +34,7 @@ static int single_stress(const hypofab_step *step, int i) {
  * How the strain rate changes so that the conditions A Tdot + B D = c go on to hold: (A M + B) dD = dc - dB D - A
  * dTdot, dTdot being the change of the stress rate at constant D.
  */
-static hypofab_status vary_stretching(const variational *v, const double (*stiffness)[6], const double slope[6][6],
+static hypofab_status vary_stretching(const variational *v, int m, const double *stiffness, const double slope[6][6],
                                       const double D[6], const double *stress, const double *stress_rate,
                                       double *restrict stretching) {
   const hypofab_step *step = v->step;
@@ -65,7 +46,7 @@ static hypofab_status vary_stretching(const variational *v, const double (*stiff
     double *row = matrix + 6 * i, largest = 0.0, mean = 0.0;
     for (int j = 0; j < 6; j++) row[j] = step->on_strain[i][j];
     for (int k = 0; k < 6; k++)
-      for (int j = 0; j < 6; j++) row[j] += step->on_stress[i][k] * stiffness[j][k];
+      for (int j = 0; j < 6; j++) row[j] += step->on_stress[i][k] * stiffness[j * m + k];
     for (int j = 0; j < 6; j++) largest = fmax(largest, fabs(row[j]));
     if (!(largest > 0.0)) return hypofab_fail(HYPOFAB_NOT_CONTROLLABLE, "the conditions have no derivative here");
     for (int j = 0; j < 6; j++) {
@@ -114,20 +95,14 @@ static void impose(const variational *v, const double slope[6][6], const double 
   }
 }
 
-/* Derivatives of the rates of void ratio, path length and work. */
+/* Derivatives of the rates of path length and work. */
 static void vary_sums(int n, const test_state *state, const double D[6], const double *change, double *change_rate) {
-  const double *stretching = change_rate + STRAIN * n, *stress = change + STRESS * n;
-  const double volumetric = tensor_trace(D), size = tensor_norm(D);
-  double *e = change_rate + VOID_RATIO * n, *path = change_rate + PATH * n, *work = change_rate + WORK * n;
-  for (int k = 0; k < n; k++) {
-    e[k] = change[VOID_RATIO * n + k] * volumetric;
-    path[k] = work[k] = 0.0;
-  }
+  const double *stretching = change_rate + AT_STRAIN * n, *stress = change + AT_STRESS * n;
+  const double size = tensor_norm(D);
+  double *path = change_rate + AT_PATH * n, *work = change_rate + AT_WORK * n;
   for (int i = 0; i < 6; i++) {
     const double count = i < 3 ? 1.0 : 2.0, along = size > 0.0 ? count * D[i] / size : 0.0;
-    const double e_factor = i < 3 ? 1.0 + state->material.void_ratio : 0.0;
     for (int k = 0; k < n; k++) {
-      e[k] += e_factor * stretching[i * n + k];
       path[k] += along * stretching[i * n + k];
       work[k] += count * (stress[i * n + k] * D[i] + state->material.stress[i] * stretching[i * n + k]);
     }
@@ -136,34 +111,29 @@ static void vary_sums(int n, const test_state *state, const double D[6], const d
 
 hypofab_status variational_rates(const variational *v, const test_state *state, const double *change, test_state *rate,
                                  double *change_rate) {
-  const int n = v->n;
-  double along, slope[6][6];
-  hypofab_rate_derivatives by;
+  const hypofab_model_info *info = hypofab_model_describe(v->material->model);
+  const int n = v->n, m = 6 + info->n_numbers; /* rates of stress and numbers */
+  double along, slope[6][6], by_stretching[6 * (6 + HYPOFAB_MAX_NUMBERS)];
+  double by_state[(6 + HYPOFAB_MAX_NUMBERS) * (6 + HYPOFAB_MAX_NUMBERS)];
+  double by_parameter[HYPOFAB_MAX_PARAMETERS * (6 + HYPOFAB_MAX_NUMBERS)];
+  hypofab_state place;
   hypofab_status status = path_rates(v->material, v->step, v->branch, state, rate, &along);
   if (status) return status;
   const double *D = rate->strain;
-  const hypofab_state place = smooth_state(state, rate);
-  status = hypofab_rate_derivatives_at(v->material, &place, D, v->branch, &by);
+  hypofab_smooth_place(v->material, &state->material, &rate->material, &place);
+  status = hypofab_rate_derivatives(v->material, &place, D, v->branch, by_stretching, by_state, by_parameter);
   if (status) return status;
   course_slope(v->step, state->material.stress, slope);
 
-  double *stress_rate = change_rate + STRESS * n, *delta_rate = change_rate + DELTA * n;
-  double *stretching = change_rate + STRAIN * n;
-  const double *stress = change + STRESS * n, *delta = change + DELTA * n;
-  memset(change_rate, 0, N_STATE * (size_t)n * sizeof *change_rate);
-  add_product(n, 6, by.stress_by_stress, stress, stress_rate);
-  add_product(n, 1, &by.stress_by_void_ratio, change + VOID_RATIO * n, stress_rate);
-  add_product(n, HYPOFAB_N_PARAMETERS, by.stress_by_parameter, v->parameter, stress_rate);
-  if (v->branch != HYPOFAB_PLAIN) {
-    add_product(n, 6, by.stress_by_delta, delta, stress_rate);
-    add_product(n, 6, by.delta_by_delta, delta, delta_rate);
-    add_product(n, HYPOFAB_N_PARAMETERS, by.delta_by_parameter, v->parameter, delta_rate);
-  }
-  status = vary_stretching(v, by.stress_by_stretching, slope, D, stress, stress_rate, stretching);
+  double *material_rate = change_rate + AT_STRESS * n, *stretching = change_rate + AT_STRAIN * n;
+  const double *material = change + AT_STRESS * n;
+  memset(change_rate, 0, (size_t)(state_length(v->material) * n) * sizeof *change_rate);
+  add_product(n, m, m, by_state, material, material_rate);
+  add_product(n, m, info->n_parameters, by_parameter, v->parameter, material_rate);
+  status = vary_stretching(v, m, by_stretching, slope, D, material, material_rate, stretching);
   if (status) return status;
-  add_product(n, 6, by.stress_by_stretching, stretching, stress_rate);
-  if (v->branch != HYPOFAB_PLAIN) add_product(n, 6, by.delta_by_stretching, stretching, delta_rate);
-  impose(v, slope, stress, stress_rate);
+  add_product(n, m, 6, by_stretching, stretching, material_rate);
+  impose(v, slope, material, material_rate);
   vary_sums(n, state, D, change, change_rate);
   return HYPOFAB_OK;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "base/message.h"
 #include "driver/control/control.h"
 #include "driver/control/linear.h"
@@ -14,7 +15,7 @@
 /* Principal stresses closer than this, relative to the largest, count as equal. */
 static const double equal = 1e-9;
 
-static double degrees(double radians) { return radians * 180.0 / M_PI; }
+static double degrees(double radians) { return radians * HYPOFAB_DEGREES; }
 
 /*
  * Angle between the normal of a plane and the direction of the most compressive principal stress, or the space of such
@@ -64,7 +65,7 @@ static void orient(const double stress[6], double normal[3], double mode[3]) {
 /* |L^-1 N| of the plain model in this state: 1 on the bound surface, where D = -L^-1 N leaves the stress as it is. */
 static hypofab_status bound(const hypofab_material *material, const hypofab_state *state, double *norm) {
   hypofab_material plain = *material;
-  plain.m_R = 0.0;
+  hypofab_memory_off(&plain);
   linear_parts parts;
   hypofab_status status = linear_parts_of(&plain, state, &parts);
   if (status) return status;

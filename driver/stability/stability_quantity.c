@@ -5,7 +5,7 @@
 void stability_quantities(const observer *observer, const test_state *state, double *value) {
   hypofab_stability s;
   hypofab_control_stability c;
-  for (int i = HYPOFAB_FIRST_STABILITY; i < HYPOFAB_N_QUANTITIES; i++) value[i] = NAN;
+  for (int i = HYPOFAB_FIRST_STABILITY; i < HYPOFAB_FIRST_NUMBER; i++) value[i] = NAN;
   if (!hypofab_stability_control(observer->material, &state->material, &observer->conditions, &c)) {
     value[HYPOFAB_WORK2] = c.work;
     value[HYPOFAB_WORK2_COS] = c.work_cosine;

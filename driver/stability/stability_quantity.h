@@ -5,10 +5,10 @@
 #ifndef HYPOFAB_DRIVER_STABILITY_QUANTITY_H
 #define HYPOFAB_DRIVER_STABILITY_QUANTITY_H
 
-#include "driver/quantity/quantity.h"
+#include "driver/quantity/observer.h"
 
 /**
- * @brief All quantities from HYPOFAB_FIRST_STABILITY on.
+ * @brief The quantities of stability.
  * @param value HYPOFAB_N_QUANTITIES numbers, those of stability filled: NaN where one is not defined, as along a path
  * that has no strain rate
  */

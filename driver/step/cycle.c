@@ -4,6 +4,7 @@
 
 #include "base/message.h"
 #include "driver/control/control.h"
+#include "driver/step/rows.h"
 
 /* Strain over which the direction of a quantity that nothing prescribes is looked up. */
 static const double trial_strain = 1e-8;
@@ -25,8 +26,9 @@ static hypofab_status set_out(const run *r, const hypofab_step *step, double *ra
     trial.strain[i] += time * rates.stretching[i];
     trial.material.stress[i] += time * rates.stress_rate[i];
   }
-  trial.material.void_ratio +=
-      time * (1.0 + trial.material.void_ratio) * (rates.stretching[0] + rates.stretching[1] + rates.stretching[2]);
+  double number_rate[HYPOFAB_MAX_NUMBERS] = {0};
+  hypofab_variable_rates(r->observer.material, &r->state.material, rates.stretching, branch, number_rate);
+  for (int i = 0; i < HYPOFAB_MAX_NUMBERS; i++) trial.material.variable[i] += time * number_rate[i];
   *rate = quantity_value(quantity, &r->observer, time, &trial) - quantity_value(quantity, &r->observer, 0.0, &r->state);
   return HYPOFAB_OK;
 }

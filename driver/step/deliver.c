@@ -2,6 +2,7 @@
 
 #include "base/message.h"
 #include "driver/sensitivity/sensitivity.h"
+#include "driver/step/rows.h"
 
 int run_send(run *r, int event) {
   hypofab_row row;

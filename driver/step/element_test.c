@@ -9,6 +9,7 @@
 #include "driver/step/element_test.h"
 #include "driver/step/finding.h"
 #include "driver/step/leg.h"
+#include "driver/step/rows.h"
 #include "driver/step/step.h"
 
 /* An undrained step ends when p has fallen to this part of what it was: little above the integrator's tolerance. */
@@ -101,7 +102,9 @@ hypofab_status element_test_run(const hypofab_material *material, const hypofab_
                                 const hypofab_step *steps, int n_steps, const hypofab_test_options *options,
                                 const wanted_derivatives *wanted, hypofab_row_sink sink, void *user,
                                 hypofab_test_outcome *outcome) {
-  run r = {.observer = {.material = material, .axis = 2, .normal = 1, .with_stability = options && options->stability},
+  run r = {.observer = {.material = material,
+                        .frame = {.axis = 2, .normal = 1},
+                        .with_stability = options && options->stability},
            .sink = sink,
            .user = user,
            .watch = options ? options->watch : NULL,

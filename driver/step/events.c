@@ -6,6 +6,8 @@
 #include <math.h>
 
 #include "base/message.h"
+#include "driver/control/control.h"
+#include "driver/step/rows.h"
 #include "driver/tensor.h"
 
 /* Brent's method halves at worst: enough iterations for a bracket of one part in 2^60. */
@@ -33,8 +35,9 @@ int event_is_between(const event *event, double before, double after) {
 }
 
 double event_branch_value(const event *event, const test_state *state, double along) {
-  return (event->branch == HYPOFAB_REVERSAL ? -along : along) * tensor_norm(state->material.delta) /
-         event->observer->material->R;
+  const hypofab_material *material = event->observer->material;
+  return (event->branch == HYPOFAB_REVERSAL ? -along : along) * tensor_norm(memory_of(material, &state->material)) /
+         hypofab_memory_size(material);
 }
 
 double event_branch(const event *event, double time, const test_state *state) {

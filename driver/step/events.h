@@ -6,6 +6,7 @@
 #define HYPOFAB_DRIVER_EVENTS_H
 
 #include "driver/integrate/integrate.h"
+#include "driver/quantity/observer.h"
 
 /** A function of time and state whose zero is the event. */
 typedef struct event {

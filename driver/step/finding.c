@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/message.h"
+#include "driver/step/rows.h"
 
 /* Below this part of the p at which an undrained phase began, a stop is liquefaction whatever it looked like. */
 static const double liquefied = 1e-2;

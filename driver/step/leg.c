@@ -40,7 +40,8 @@ typedef struct place {
  */
 static int came_and_went(run *r, const event *e, double before, const glimpses *g, double *to, test_state *end,
                          place *first, hypofab_status *status) {
-  if (e->mark.quantity >= HYPOFAB_FIRST_STABILITY) return 0; /* a look costs a thousand rates */
+  if (e->mark.quantity >= HYPOFAB_FIRST_STABILITY && e->mark.quantity < HYPOFAB_FIRST_NUMBER)
+    return 0; /* a look costs a thousand rates */
   for (int i = 0; i < g->n; i++) {
     if (!(g->time[i] > r->time && g->time[i] < *to)) continue;
     if (!event_is_between(e, before, e->value(e, g->time[i], &g->state[i]))) continue;

@@ -3,6 +3,7 @@
 #define HYPOFAB_DRIVER_RUN_H
 
 #include "driver/integrate/integrate.h"
+#include "driver/quantity/observer.h"
 
 /** The derivatives of a test (driver/sensitivity/sensitivity.h). */
 typedef struct sensitivity sensitivity;

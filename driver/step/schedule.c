@@ -5,6 +5,7 @@
 
 #include "base/message.h"
 #include "driver/control/control.h"
+#include "driver/step/rows.h"
 
 /* A value met within this relative distance counts as met. */
 static const double met = 1e-12;

@@ -6,7 +6,7 @@
 
 #include "base/message.h"
 #include "driver/control/control.h"
-#include "driver/quantity/quantity.h"
+#include "driver/quantity/table.h"
 
 void step_clear(hypofab_step *step) {
   memset(step->on_stress, 0, sizeof step->on_stress);

@@ -16,8 +16,11 @@
 
 #include "hypofab.h"
 
-/** Numbers of a state: stress, delta, void ratio. */
-#define CORE_STATE 13
+/** Numbers of a material: which model (its place in the registry), and its parameters. */
+#define CORE_MATERIAL (1 + HYPOFAB_MAX_PARAMETERS)
+
+/** Numbers of a state: stress, and those of the model's state variables. */
+#define CORE_STATE (6 + HYPOFAB_MAX_NUMBERS)
 
 /** Numbers of a fabric: see core_pack_fabric. */
 #define CORE_FABRIC 30
@@ -35,8 +38,9 @@ void core_text(const char *text, char *buffer, size_t size);
 hypofab_state core_unpack_state(const double *numbers);
 void core_pack_state(const hypofab_state *state, double *numbers);
 
-/** The material of HYPOFAB_N_PARAMETERS numbers. */
+/** The material of CORE_MATERIAL numbers, and back. */
 hypofab_material core_unpack_material(const double *numbers);
+void core_pack_material(const hypofab_material *material, double *numbers);
 
 /** CORE_FABRIC numbers: contacts, particles, rattlers, N, F, a, principal values and directions, Z, mechanical Z. */
 void core_pack_fabric(const hypofab_fabric *fabric, double *numbers);
@@ -57,10 +61,19 @@ void core_message(char *text, size_t size);
 void core_status_text(int status, char *text, size_t size);
 void core_version(char *text, size_t size);
 void core_quantity_name(int index, char *text, size_t size);
-int core_sand(int index, double *material, char *name, char *description, char *source, size_t name_size,
-              size_t description_size, size_t source_size);
-int core_parameter(int index, double *bounds, char *name, char *unit, char *description, size_t name_size,
-                   size_t unit_size, size_t description_size);
+/** numbers: parameters, state variables, their numbers, place of the intergranular strain, of the void ratio. */
+int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size);
+int core_set(int model, int index, double *material, char *name, char *description, char *source, size_t name_size,
+             size_t description_size, size_t source_size);
+/** bounds: lower, upper, start. */
+int core_parameter(int model, int index, double *bounds, int *role, char *name, char *unit, char *description,
+                   size_t name_size, size_t unit_size, size_t description_size);
+/** numbers: kind, place, whether it has a sign. */
+int core_variable(int model, int index, int *numbers, double *start, char *name, char *unit, char *description,
+                  size_t name_size, size_t unit_size, size_t description_size);
+double core_memory_size(const double *material);
+void core_memory_off(const double *material, double *without);
+void core_limiting_void_ratios(const double *material, int n, const double *p, double *limits);
 
 /* The model at one point, and at many. */
 int core_material_check(const double *material);
@@ -71,8 +84,8 @@ int core_linear_parts(const double *material, const double *state, double *rever
 int core_update(const double *material, const double *start, const double *strain, double tolerance,
                 int max_evaluations, int wants_tangent, double *end, double *tangent, double *substep, int *report);
 int core_update_batch(const double *material, double tolerance, int max_evaluations, int threads, int n, double *stress,
-                      double *delta, double *void_ratio, const double *strain, int *statuses, long long *report,
-                      char *instructions, size_t instructions_size);
+                      double *numbers, const double *strain, int *statuses, long long *report, char *instructions,
+                      size_t instructions_size);
 double core_friction_angle(const double *stress);
 
 /* Decks. A handle is the address of a study or of collected rows; Python frees each once. */
@@ -85,6 +98,7 @@ void core_study_unit(long long handle, char *text, size_t size);
 int core_study_test_state(long long handle, int index);
 int core_study_state(long long handle, int index, double *material, double *state);
 int core_study_test_run(long long handle, int index, int *stop, long long *rows, long long *report);
+void core_study_column(long long handle, int test, int index, char *text, size_t size);
 void core_study_sensitivity_name(long long handle, int test, int index, char *text, size_t size);
 void core_derivatives_take(long long rows, int numbers, int quantities, int n, double *values);
 void core_rows_take(long long rows, int n, int width, double *values);

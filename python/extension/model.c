@@ -4,7 +4,6 @@
 
 #include "core.h"
 
-_Static_assert(sizeof(hypofab_material) == HYPOFAB_N_PARAMETERS * sizeof(double), "a material is its numbers");
 _Static_assert(sizeof(hypofab_state) == CORE_STATE * sizeof(double), "a state is its numbers");
 
 void core_text(const char *text, char *buffer, size_t size) {
@@ -21,9 +20,16 @@ hypofab_state core_unpack_state(const double *numbers) {
 void core_pack_state(const hypofab_state *state, double *numbers) { memcpy(numbers, state, sizeof *state); }
 
 hypofab_material core_unpack_material(const double *numbers) {
-  hypofab_material material;
-  memcpy(&material, numbers, sizeof material);
+  hypofab_material material = {.model = hypofab_model_at((int)numbers[0])};
+  memcpy(material.value, numbers + 1, sizeof material.value);
   return material;
+}
+
+void core_pack_material(const hypofab_material *material, double *numbers) {
+  int model = 0;
+  while (hypofab_model_at(model) != material->model) model++;
+  numbers[0] = model;
+  memcpy(numbers + 1, material->value, sizeof material->value);
 }
 
 int core_asked_to_stop(const char *what, double fraction, void *user) {
@@ -44,31 +50,81 @@ void core_quantity_name(int index, char *text, size_t size) {
   core_text(hypofab_quantity_name((hypofab_quantity)index), text, size);
 }
 
-int core_sand(int index, double *material, char *name, char *description, char *source, size_t name_size,
-              size_t description_size, size_t source_size) {
-  hypofab_sand_info info;
+int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size) {
+  const hypofab_model *model = hypofab_model_at(index);
+  if (!model) return HYPOFAB_BAD_ARGUMENT;
+  const hypofab_model_info *info = hypofab_model_describe(model);
+  core_text(info->name, name, name_size);
+  core_text(info->description, description, description_size);
+  numbers[0] = info->n_parameters;
+  numbers[1] = info->n_variables;
+  numbers[2] = info->n_numbers;
+  numbers[3] = info->memory;
+  numbers[4] = info->void_ratio;
+  return HYPOFAB_OK;
+}
+
+int core_set(int model, int index, double *material, char *name, char *description, char *source, size_t name_size,
+             size_t description_size, size_t source_size) {
+  hypofab_set_info info;
   hypofab_material found;
-  hypofab_status status = hypofab_sand_describe(index, &info);
-  if (!status) status = hypofab_sand(info.name, &found);
+  hypofab_status status =
+      hypofab_model_at(model) ? hypofab_model_set(hypofab_model_at(model), index, &info) : HYPOFAB_BAD_ARGUMENT;
+  if (!status) status = hypofab_material_built_in(info.name, &found);
   if (status) return status;
-  memcpy(material, &found, sizeof found);
+  core_pack_material(&found, material);
   core_text(info.name, name, name_size);
   core_text(info.description, description, description_size);
   core_text(info.source, source, source_size);
   return status;
 }
 
-int core_parameter(int index, double *bounds, char *name, char *unit, char *description, size_t name_size,
-                   size_t unit_size, size_t description_size) {
+int core_parameter(int model, int index, double *bounds, int *role, char *name, char *unit, char *description,
+                   size_t name_size, size_t unit_size, size_t description_size) {
   hypofab_parameter_info info;
-  const hypofab_status status = hypofab_parameter_describe(index, &info);
+  const hypofab_status status =
+      hypofab_model_at(model) ? hypofab_model_parameter(hypofab_model_at(model), index, &info) : HYPOFAB_BAD_ARGUMENT;
   if (status) return status;
   bounds[0] = info.lower;
   bounds[1] = info.upper;
+  bounds[2] = info.start;
+  *role = info.role;
   core_text(info.name, name, name_size);
   core_text(info.unit, unit, unit_size);
   core_text(info.description, description, description_size);
   return status;
+}
+
+int core_variable(int model, int index, int *numbers, double *start, char *name, char *unit, char *description,
+                  size_t name_size, size_t unit_size, size_t description_size) {
+  hypofab_variable_info info;
+  const hypofab_status status =
+      hypofab_model_at(model) ? hypofab_model_variable(hypofab_model_at(model), index, &info) : HYPOFAB_BAD_ARGUMENT;
+  if (status) return status;
+  numbers[0] = (int)info.kind;
+  numbers[1] = info.place;
+  numbers[2] = info.has_sign;
+  *start = info.start;
+  core_text(info.name, name, name_size);
+  core_text(info.unit, unit, unit_size);
+  core_text(info.description, description, description_size);
+  return status;
+}
+
+double core_memory_size(const double *material) {
+  const hypofab_material m = core_unpack_material(material);
+  return hypofab_memory_size(&m);
+}
+
+void core_memory_off(const double *material, double *without) {
+  hypofab_material m = core_unpack_material(material);
+  hypofab_memory_off(&m);
+  core_pack_material(&m, without);
+}
+
+void core_limiting_void_ratios(const double *material, int n, const double *p, double *limits) {
+  const hypofab_material m = core_unpack_material(material);
+  for (int i = 0; i < n; i++) hypofab_limiting_void_ratios(&m, p[i], limits + 3 * i);
 }
 
 int core_material_check(const double *material) {
@@ -85,7 +141,7 @@ int core_state_check(const double *material, const double *state) {
 int core_rate(const double *material, const double *state, const double *stretching, double *rate, int *branch) {
   const hypofab_material m = core_unpack_material(material);
   const hypofab_state s = core_unpack_state(state);
-  hypofab_state found;
+  hypofab_state found = {0};
   hypofab_branch taken;
   const hypofab_status status = hypofab_rate(&m, &s, stretching, &found, &taken);
   if (status) return status;
@@ -119,17 +175,16 @@ int core_update(const double *material, const double *start, const double *strai
 }
 
 int core_update_batch(const double *material, double tolerance, int max_evaluations, int threads, int n, double *stress,
-                      double *delta, double *void_ratio, const double *strain, int *statuses, long long *report,
-                      char *instructions, size_t instructions_size) {
+                      double *numbers, const double *strain, int *statuses, long long *report, char *instructions,
+                      size_t instructions_size) {
   const hypofab_material m = core_unpack_material(material);
   const hypofab_update_options options = {.tolerance = tolerance, .max_evaluations = max_evaluations};
-  const hypofab_points points = {.count = (size_t)n,
-                                 .stride = (size_t)n,
-                                 .stress = stress,
-                                 .delta = delta,
-                                 .void_ratio = void_ratio,
-                                 .strain = strain,
-                                 .status = statuses};
+  hypofab_points points = {
+      .count = (size_t)n, .stride = (size_t)n, .stress = stress, .strain = strain, .status = statuses};
+  hypofab_variable_info variable;
+  for (int i = 0; i < hypofab_model_describe(m.model)->n_variables && !hypofab_model_variable(m.model, i, &variable);
+       i++)
+    points.variable[i] = numbers + (size_t)variable.place * (size_t)n;
   hypofab_batch_report done = {0};
   const hypofab_status status = hypofab_update_batch(&m, &options, &points, threads, &done);
   report[0] = (long long)done.failed;

@@ -60,7 +60,7 @@ int core_probe(const double *material, const double *state, int imposed, double 
     memcpy(answer + 12, found[i].irrecoverable, sizeof found[i].irrecoverable);
     statuses[i] = found[i].status;
     hypofab_probe_measures what;
-    hypofab_probe_measure(options.imposed, &s, &found[i], &what);
+    hypofab_probe_measure(options.imposed, &m, &s, &found[i], &what);
     const double all[MEASURES] = {what.stiffness, what.work, what.dilatancy, what.angle_to_stress, what.angle_to_delta};
     memcpy(measure, all, sizeof all);
   }

@@ -13,7 +13,8 @@ typedef struct collected {
   double *values,
       *derivatives; /* derivatives: of each number in turn HYPOFAB_N_QUANTITIES; NULL without sensitivities */
   size_t rows, capacity;
-  int quantities, numbers;
+  int quantities, numbers; /* columns wanted; derivatives */
+  hypofab_quantity column[HYPOFAB_N_QUANTITIES];
   volatile const int *stop;
   int no_memory;
 } collected;
@@ -65,7 +66,7 @@ int core_study_state(long long handle, int index, double *material, double *stat
   hypofab_state s;
   const hypofab_status status = hypofab_study_state(study_of(handle), index, &m, &s);
   if (status) return status;
-  memcpy(material, &m, sizeof m);
+  core_pack_material(&m, material);
   core_pack_state(&s, state);
   return status;
 }
@@ -84,7 +85,7 @@ static int has_room(collected *all) {
   return !all->no_memory;
 }
 
-/* In the order of a row until the test is done, which tells how many of the columns are wanted. */
+/* Whole rows; Python takes the columns of the test. */
 static int collect(const hypofab_row *row, void *user) {
   collected *all = user;
   if (!has_room(all)) return 1;
@@ -117,10 +118,10 @@ int core_study_test_run(long long handle, int index, int *stop, long long *rows,
   hypofab_test_outcome outcome = {0};
   const hypofab_study *study = study_of(handle);
   while (hypofab_study_sensitivity_name(study, index, all->numbers)) all->numbers++;
-  const hypofab_status status =
-      all->numbers > 0 ? hypofab_study_test_sensitivities(study, index, 0, NULL, collect_derivatives, watch, all,
-                                                          &all->quantities, &outcome)
-                       : hypofab_study_test_run(study, index, collect, watch, all, &all->quantities, &outcome);
+  const hypofab_status status = all->numbers > 0 ? hypofab_study_test_sensitivities(
+                                                       study, index, 0, NULL, collect_derivatives, watch, all, &outcome)
+                                                 : hypofab_study_test_run(study, index, collect, watch, all, &outcome);
+  all->quantities = hypofab_study_columns(study, index, all->column);
   if (all->no_memory || status >= HYPOFAB_BAD_MATERIAL) {
     const int no_memory = all->no_memory;
     core_rows_free((long long)(intptr_t)all);
@@ -136,6 +137,15 @@ int core_study_test_run(long long handle, int index, int *stop, long long *rows,
   return status;
 }
 
+void core_study_column(long long handle, int test, int index, char *text, size_t size) {
+  hypofab_quantity column[HYPOFAB_N_QUANTITIES];
+  char name[HYPOFAB_QUANTITY_NAME_SIZE];
+  const hypofab_study *study = study_of(handle);
+  const int n = hypofab_study_columns(study, test, column);
+  core_text(index < n ? hypofab_model_quantity_name(hypofab_study_model(study, test), column[index], name) : NULL, text,
+            size);
+}
+
 void core_study_sensitivity_name(long long handle, int test, int index, char *text, size_t size) {
   core_text(hypofab_study_sensitivity_name(study_of(handle), test, index), text, size);
 }
@@ -146,7 +156,7 @@ void core_rows_take(long long rows, int n, int width, double *values) {
   for (size_t i = 0; i < (size_t)n; ++i) {
     const double *from = all->values + i * (HYPOFAB_N_QUANTITIES + MORE_COLUMNS);
     double *to = values + i * (size_t)width;
-    memcpy(to, from, quantities * sizeof *to);
+    for (size_t j = 0; j < quantities; ++j) to[j] = from[all->column[j]];
     memcpy(to + quantities, from + HYPOFAB_N_QUANTITIES, MORE_COLUMNS * sizeof *to);
   }
 }
@@ -156,7 +166,7 @@ void core_derivatives_take(long long rows, int numbers, int quantities, int n, d
   for (size_t k = 0; k < (size_t)numbers; ++k)
     for (size_t j = 0; j < (size_t)quantities; ++j)
       for (size_t i = 0; i < (size_t)n; ++i)
-        *values++ = all->derivatives[(i * (size_t)numbers + k) * HYPOFAB_N_QUANTITIES + j];
+        *values++ = all->derivatives[(i * (size_t)numbers + k) * HYPOFAB_N_QUANTITIES + (size_t)all->column[j]];
 }
 
 void core_rows_free(long long rows) {

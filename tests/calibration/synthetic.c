@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/sand.h"
+
 /* clang-format off */
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,10 +35,12 @@ static int record(const hypofab_row *row, void *user) {
 /* The material and state a test begins with: delta as mobilised by the compression before it. */
 static void run(synthetic *data, int index, const hypofab_material *material, const hypofab_laboratory_test *test,
                 const hypofab_step *steps, int n_steps) {
-  hypofab_state initial = {.stress = {-test->sigma3, -test->sigma3, -test->sigma1}, .void_ratio = test->void_ratio};
-  if (material->m_R > 0.5)
+  hypofab_state initial = {.stress = {-test->sigma3, -test->sigma3, -test->sigma1},
+                           .variable[VOID_RATIO] = test->void_ratio};
+  if (material->value[SAND_M_R] > 0.5)
     for (int i = 0; i < 3; i++)
-      initial.delta[i] = test->kind == HYPOFAB_LAB_OEDOMETER ? (i == 2 ? -material->R : 0.0) : -material->R / sqrt(3.0);
+      initial.variable[i] = test->kind == HYPOFAB_LAB_OEDOMETER ? (i == 2 ? -material->value[SAND_R] : 0.0)
+                                                                : -material->value[SAND_R] / sqrt(3.0);
   recording r = {data, index, 0};
   if (hypofab_test_run(material, &initial, steps, n_steps, NULL, record, &r, NULL))
     fail_msg("%s", hypofab_last_message());

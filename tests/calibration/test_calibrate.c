@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support/sand.h"
+
 /* clang-format off */
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,16 +31,16 @@ enum {
 
 static hypofab_material sand_of(const char *name) {
   hypofab_material sand;
-  assert_int_equal(hypofab_sand(name, &sand), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in(name, &sand), HYPOFAB_OK);
   return sand;
 }
 
-static double parameter(const hypofab_material *material, int index) { return ((const double *)material)[index]; }
+static double parameter(const hypofab_material *material, int index) { return material->value[index]; }
 
 /* A free parameter that starts `factor` times its value. */
 static hypofab_free_parameter free_one(const hypofab_material *sand, int index, double factor) {
   hypofab_free_parameter p = {.index = index, .start = factor * parameter(sand, index)};
-  assert_int_equal(hypofab_calibration_bounds(index, 1.0, &p.lower, &p.upper), HYPOFAB_OK);
+  assert_int_equal(hypofab_calibration_bounds(sand->model, index, 1.0, &p.lower, &p.upper), HYPOFAB_OK);
   return p;
 }
 
@@ -74,7 +76,8 @@ static void parameters_are_recovered(void **state) {
     const double error = log(result.value[j] / parameter(&sand, parameters[j].index));
     if (fabs(error) > (parameters[j].index == H_S ? 0.1 : 0.01)) fail_msg("parameter %d: error %g", j, error);
   }
-  assert_true(result.material.phi_c == result.value[0] && result.material.e_c0 == sand.e_c0);
+  assert_true(result.material.value[SAND_PHI_C] == result.value[0] &&
+              result.material.value[SAND_E_C0] == sand.value[SAND_E_C0]);
 }
 
 /* Small cycles tell the intergranular strain. */
@@ -87,8 +90,8 @@ static void intergranular_parameters_are_recovered_from_a_loop(void **state) {
   const hypofab_calibration_problem problem = {
       .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 2, .parameters = parameters};
   calibrate(&problem, NULL);
-  assert_true(fabs(result.value[0] / sand.m_R - 1) < 0.02);
-  assert_true(fabs(result.value[1] / sand.R - 1) < 0.03);
+  assert_true(fabs(result.value[0] / sand.value[SAND_M_R] - 1) < 0.02);
+  assert_true(fabs(result.value[1] / sand.value[SAND_R] - 1) < 0.03);
 }
 
 /* The void ratio at the start is a number like any other. */
@@ -116,8 +119,8 @@ static void undrained_cycles_are_followed(void **state) {
   const hypofab_calibration_problem problem = {
       .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 2, .parameters = parameters};
   calibrate(&problem, NULL);
-  assert_true(fabs(result.value[0] / sand.m_R - 1) < 0.02 && fabs(result.value[1] - 0.82) < 2e-3);
-  const double loose[2] = {sand.m_R, 1.035};
+  assert_true(fabs(result.value[0] / sand.value[SAND_M_R] - 1) < 0.02 && fabs(result.value[1] - 0.82) < 2e-3);
+  const double loose[2] = {sand.value[SAND_M_R], 1.035};
   hypofab_laboratory_comparison found;
   assert_int_equal(hypofab_calibration_compare(&problem, NULL, loose, 0, &found), HYPOFAB_OK);
   assert_true(found.status > HYPOFAB_OK && found.status < HYPOFAB_BAD_MATERIAL);
@@ -190,7 +193,7 @@ static void what_the_data_cannot_tell_is_said(void **state) {
   assert_true(fabs(result.value[2] - 5) < 1e-9);
   /* A bound that keeps the fit from the truth is named, and no error is stated for it. */
   hypofab_free_parameter low = free_one(&sand, H_S, 1.0);
-  low.upper = 0.5 * sand.h_s, low.start = 0.2 * sand.h_s;
+  low.upper = 0.5 * sand.value[SAND_H_S], low.start = 0.2 * sand.value[SAND_H_S];
   const hypofab_calibration_problem bounded = {
       .material = sand, .n_tests = 1, .tests = data.tests, .n_parameters = 1, .parameters = &low};
   calibrate(&bounded, NULL);
@@ -208,7 +211,7 @@ static void what_cannot_be_computed_does_not_end_the_fit(void **state) {
   e_d0.upper = 1.0, e_c0.lower = 0.6; /* they overlap */
   const hypofab_free_parameter parameters[] = {e_d0, e_c0};
   const hypofab_calibration_problem problem = {.material = sand,
-                                               .ratio = {0.0, 1.1},
+                                               .ratio = {[SAND_E_D0] = 0.0, [SAND_E_I0] = 1.1},
                                                .n_tests = 2,
                                                .tests = data.tests,
                                                .n_parameters = 2,
@@ -218,11 +221,16 @@ static void what_cannot_be_computed_does_not_end_the_fit(void **state) {
   assert_int_equal(hypofab_calibration_distance(&problem, NULL, impossible, &distance, of_tests), HYPOFAB_OK);
   assert_true(fabs(of_tests[0] - 3) < 1e-12 && fabs(of_tests[1] - 3) < 1e-12 && fabs(distance - 3) < 1e-12);
   calibrate(&problem, NULL);
-  assert_true(fabs(result.value[0] / sand.e_d0 - 1) < 0.02 && fabs(result.value[1] / sand.e_c0 - 1) < 0.02);
+  assert_true(fabs(result.value[0] / sand.value[SAND_E_D0] - 1) < 0.02 &&
+              fabs(result.value[1] / sand.value[SAND_E_C0] - 1) < 0.02);
   /* From an impossible start there is no way: the fit ends where it began, and says how far off that is. */
   const hypofab_free_parameter lost[] = {{E_D0, 0, 0.9, e_d0.lower, 1.0}, {E_C0, 0, 0.7, 0.6, e_c0.upper}};
-  const hypofab_calibration_problem hopeless = {
-      .material = sand, .ratio = {0.0, 1.1}, .n_tests = 2, .tests = data.tests, .n_parameters = 2, .parameters = lost};
+  const hypofab_calibration_problem hopeless = {.material = sand,
+                                                .ratio = {[SAND_E_D0] = 0.0, [SAND_E_I0] = 1.1},
+                                                .n_tests = 2,
+                                                .tests = data.tests,
+                                                .n_parameters = 2,
+                                                .parameters = lost};
   assert_int_equal(hypofab_calibrate(&hopeless, NULL, NULL, NULL, &result), HYPOFAB_OK);
   assert_true(fabs(result.distance - 3) < 1e-12 && is_found("no test depends on e_d0"));
   /* Other starts find it. */
@@ -246,7 +254,7 @@ static void exact_derivatives_agree_with_differences(void **state) {
                                                free_one(&sand, R_SIZE, 1.05),
                                                {.index = -1, .test = 1, .start = 0.71, .lower = 0.6, .upper = 0.8}};
   const hypofab_calibration_problem problem = {.material = sand,
-                                               .ratio = {0.58, 1.11},
+                                               .ratio = {[SAND_E_D0] = 0.58, [SAND_E_I0] = 1.11},
                                                .n_tests = 2,
                                                .tests = data.tests,
                                                .n_parameters = 3,

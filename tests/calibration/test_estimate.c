@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support/sand.h"
+
 /* clang-format off */
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +35,8 @@ static void the_compression_law_is_found(void **state) {
                                         .void_ratio = e[0]};
   hypofab_direct_estimate found;
   assert_int_equal(
-      hypofab_estimate_directly(&(hypofab_index_tests){.repose = phi_c, .e_min = 0.5, .e_max = 0.9}, 1, &test, &found),
+      hypofab_estimate_directly(hypofab_model_find("sand"),
+                                &(hypofab_index_tests){.repose = phi_c, .e_min = 0.5, .e_max = 0.9}, 1, &test, &found),
       HYPOFAB_OK);
   assert_true(found.value[PHI_C] == phi_c && found.value[E_D0] == 0.5 && found.value[E_C0] == 0.9);
   assert_true(fabs(found.value[E_I0] - 1.15 * 0.9) < 1e-12);
@@ -60,36 +63,40 @@ static void alpha_comes_back_from_a_peak(void **state) {
   (void)state;
   static synthetic data;
   hypofab_material sand;
-  assert_int_equal(hypofab_sand("hochstetten_1999", &sand), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("hochstetten_1999", &sand), HYPOFAB_OK);
   synthetic_oedometer(&data, 0, &sand, 0.9);
   synthetic_triaxial(&data, 1, &sand, 0.65, 200, 0.2, 0);
-  const hypofab_index_tests index = {.repose = sand.phi_c, .e_min = sand.e_d0, .e_max = sand.e_c0};
+  const hypofab_index_tests index = {
+      .repose = sand.value[SAND_PHI_C], .e_min = sand.value[SAND_E_D0], .e_max = sand.value[SAND_E_C0]};
   hypofab_direct_estimate found;
-  assert_int_equal(hypofab_estimate_directly(&index, 2, data.tests, &found), HYPOFAB_OK);
-  assert_true(fabs(found.value[ALPHA] / sand.alpha - 1) < 0.05); /* h_s and n are estimates, too */
+  assert_int_equal(hypofab_estimate_directly(hypofab_model_find("sand"), &index, 2, data.tests, &found), HYPOFAB_OK);
+  assert_true(fabs(found.value[ALPHA] / sand.value[SAND_ALPHA] - 1) < 0.05); /* h_s and n are estimates, too */
   assert_true(found.value[BETA] > 0.3 && found.value[BETA] < 3);
   assert_true(strstr(found.source[ALPHA], "1 drained") != NULL);
   int peak = 0;
   for (int i = 0; i < data.tests[1].n; i++)
     if (data.value[1][HYPOFAB_LAB_Q][i] > data.value[1][HYPOFAB_LAB_Q][peak]) peak = i;
   const double p = data.value[1][HYPOFAB_LAB_P][peak], eta = data.value[1][HYPOFAB_LAB_Q][peak] / p;
-  const double decrease = exp(-pow(3 * p / sand.h_s, sand.n)), e = data.value[1][HYPOFAB_LAB_E][peak];
-  const double r_e = (e - sand.e_d0 * decrease) / ((sand.e_c0 - sand.e_d0) * decrease);
-  const double alpha = alpha_in_print(sand.phi_c, asin(3 * eta / (6 + eta)) * 180 / acos(-1.0), r_e);
-  if (!(fabs(alpha / sand.alpha - 1) < 0.01)) fail_msg("alpha in print %g, of the sand %g", alpha, sand.alpha);
+  const double decrease = exp(-pow(3 * p / sand.value[SAND_H_S], sand.value[SAND_N])),
+               e = data.value[1][HYPOFAB_LAB_E][peak];
+  const double r_e =
+      (e - sand.value[SAND_E_D0] * decrease) / ((sand.value[SAND_E_C0] - sand.value[SAND_E_D0]) * decrease);
+  const double alpha = alpha_in_print(sand.value[SAND_PHI_C], asin(3 * eta / (6 + eta)) * 180 / acos(-1.0), r_e);
+  if (!(fabs(alpha / sand.value[SAND_ALPHA] - 1) < 0.01))
+    fail_msg("alpha in print %g, of the sand %g", alpha, sand.value[SAND_ALPHA]);
 }
 
 static void critical_states_stand_in_for_index_tests(void **state) {
   (void)state;
   static synthetic data;
   hypofab_material sand;
-  assert_int_equal(hypofab_sand("toyoura", &sand), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("toyoura", &sand), HYPOFAB_OK);
   synthetic_oedometer(&data, 0, &sand, 0.95);
   synthetic_triaxial(&data, 1, &sand, 0.9, 100, 0.6, 0);
   hypofab_direct_estimate found;
-  assert_int_equal(hypofab_estimate_directly(NULL, 2, data.tests, &found), HYPOFAB_OK);
-  assert_true(fabs(found.value[PHI_C] - sand.phi_c) < 1.0);
-  assert_true(fabs(found.value[E_C0] / sand.e_c0 - 1) < 0.05);
+  assert_int_equal(hypofab_estimate_directly(hypofab_model_find("sand"), NULL, 2, data.tests, &found), HYPOFAB_OK);
+  assert_true(fabs(found.value[PHI_C] - sand.value[SAND_PHI_C]) < 1.0);
+  assert_true(fabs(found.value[E_C0] / sand.value[SAND_E_C0] - 1) < 0.05);
   assert_true(fabs(found.value[E_D0] / found.value[E_C0] - 0.6) < 1e-12);
   assert_true(isnan(found.value[9]) && !*found.source[9]);
 }
@@ -97,10 +104,11 @@ static void critical_states_stand_in_for_index_tests(void **state) {
 static void contradictions_are_refused(void **state) {
   (void)state;
   hypofab_direct_estimate found;
-  assert_int_equal(hypofab_estimate_directly(&(hypofab_index_tests){.e_min = 0.9, .e_max = 0.8}, 0, NULL, &found),
+  assert_int_equal(hypofab_estimate_directly(hypofab_model_find("sand"),
+                                             &(hypofab_index_tests){.e_min = 0.9, .e_max = 0.8}, 0, NULL, &found),
                    HYPOFAB_BAD_ARGUMENT);
   assert_non_null(strstr(hypofab_last_message(), "e_min 0.9"));
-  assert_int_equal(hypofab_estimate_directly(NULL, 0, NULL, &found), HYPOFAB_OK);
+  assert_int_equal(hypofab_estimate_directly(hypofab_model_find("sand"), NULL, 0, NULL, &found), HYPOFAB_OK);
   assert_true(isnan(found.value[PHI_C]) && isnan(found.value[E_C0]));
 }
 

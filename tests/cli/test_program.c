@@ -14,6 +14,7 @@
 #include "cli/program.h"
 #include "deck/scratch.h"
 #include "hypofab.h"
+#include "support/sand.h"
 
 #define EXAMPLE(name) HYPOFAB_SOURCE_DIR "/examples/" name
 
@@ -274,18 +275,18 @@ static void sands_are_listed_and_shown(void **state) {
   (void)state;
   program_run list = program("materials", NULL), json = program("materials", "--json", NULL);
   json_t *sands = json_loads(json.out, 0, NULL);
-  assert_int_equal(json_array_size(sands), hypofab_sand_count());
-  for (int i = 0; i < hypofab_sand_count(); ++i) {
-    hypofab_sand_info info;
+  assert_int_equal(json_array_size(sands), hypofab_model_set_count(hypofab_model_find("sand")));
+  for (int i = 0; i < hypofab_model_set_count(hypofab_model_find("sand")); ++i) {
+    hypofab_set_info info;
     hypofab_material material;
-    assert_int_equal(hypofab_sand_describe(i, &info), HYPOFAB_OK);
-    assert_int_equal(hypofab_sand(info.name, &material), HYPOFAB_OK);
+    assert_int_equal(hypofab_model_set(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_material_built_in(info.name, &material), HYPOFAB_OK);
     expect(&list, 0, info.name, "");
     expect(&list, 0, info.source, "");
     const json_t *sand = json_array_get(sands, (size_t)i), *values = json_object_get(sand, "parameters");
     assert_string_equal(json_string_value(json_object_get(sand, "name")), info.name);
-    assert_int_equal(json_object_size(values), HYPOFAB_N_PARAMETERS);
-    assert_true(json_number_value(json_object_get(values, "h_s")) == material.h_s);
+    assert_int_equal(json_object_size(values), SAND_N_PARAMETERS);
+    assert_true(json_number_value(json_object_get(values, "h_s")) == material.value[SAND_H_S]);
 
     /* The piece of a deck that --yaml prints is one. */
     program_run yaml = program("materials", info.name, "--yaml", NULL);
@@ -301,9 +302,9 @@ static void sands_are_listed_and_shown(void **state) {
     expect(&run, 0, "t            done", "");
     json_t *summary = summary_read(scratch_path("piece_out"));
     const json_t *used = json_object_get(summary_test(summary, 0), "material");
-    for (int k = 0; k < HYPOFAB_N_PARAMETERS; ++k) {
+    for (int k = 0; k < SAND_N_PARAMETERS; ++k) {
       hypofab_parameter_info parameter;
-      assert_int_equal(hypofab_parameter_describe(k, &parameter), HYPOFAB_OK);
+      assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), k, &parameter), HYPOFAB_OK);
       assert_true(json_number_value(json_object_get(used, parameter.name)) ==
                   json_number_value(json_object_get(values, parameter.name)));
     }

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "support/sand.h"
+
 int main(void) {
   const hypofab_material sand = {.phi_c = 30,
                                  .h_s = 230e3,
@@ -25,7 +27,7 @@ int main(void) {
   const double fabric_tensor[6] = {0.318, 0.362, 0.320, 0.001, -0.002, 0};
   hypofab_fabric fabric;
   hypofab_initial_delta initial;
-  hypofab_state state = {.stress = {-100, -100, -100}, .void_ratio = 0.640};
+  hypofab_state state = {.stress = {-100, -100, -100}, .variable[VOID_RATIO] = 0.640};
   const hypofab_control control[6] = {HYPOFAB_STRESS_RATE, HYPOFAB_STRAIN_RATE, HYPOFAB_STRESS_RATE,
                                       HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE};
   const double rate[6] = {0, -1, 0, 0, 0, 0};
@@ -33,10 +35,10 @@ int main(void) {
   hypofab_test_outcome outcome;
 
   hypofab_status status = hypofab_fabric_from_tensor(fabric_tensor, &fabric);
-  if (!status) status = hypofab_fabric_to_delta(&fabric, sand.R, 0.05, &initial);
+  if (!status) status = hypofab_fabric_to_delta(&fabric, sand.value[SAND_R], 0.05, &initial);
   if (!status) status = hypofab_step_control(&step, control, rate);
   if (!status) {
-    for (int i = 0; i < 6; i++) state.delta[i] = initial.delta[i];
+    for (int i = 0; i < 6; i++) state.variable[i] = initial.variable[i];
     status = hypofab_test_run(&sand, &state, &step, 1, NULL, NULL, NULL, &outcome);
   }
   if (status) {

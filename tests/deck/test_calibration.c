@@ -140,9 +140,9 @@ static void the_example_is_calibrated(void **state) {
   assert_int_equal(hypofab_calibration_run(calibration, NULL, NULL), HYPOFAB_OK);
   const hypofab_calibration_result *result = hypofab_calibration_result_of(calibration);
   hypofab_material sand;
-  assert_int_equal(hypofab_sand("hochstetten", &sand), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("hochstetten", &sand), HYPOFAB_OK);
   for (int j = 0; j < hypofab_calibration_problem_of(calibration)->n_parameters; j++) {
-    const double truth = ((double *)&sand)[hypofab_calibration_problem_of(calibration)->parameters[j].index];
+    const double truth = sand.value[hypofab_calibration_problem_of(calibration)->parameters[j].index];
     if (!(fabs(result->value[j] - truth) < 3.0 * result->standard_error[j]))
       fail_msg("%s: %g +- %g, expected %g", hypofab_calibration_parameter_name(calibration, j), result->value[j],
                result->standard_error[j], truth);

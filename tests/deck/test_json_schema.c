@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 
 static json_t *at(const json_t *schema, const char *key) {
   json_t *found = json_object_get(json_object_get(schema, "properties"), key);
@@ -29,11 +30,12 @@ static void the_schema_follows_the_tables_of_decks(void **state) {
   assert_int_equal(json_array_size(required), 2);
   assert_string_equal(json_string_value(json_array_get(required, 0)), "materials");
   const json_t *material = json_object_get(at(schema, "materials"), "items");
-  assert_int_equal(json_array_size(json_object_get(at(material, "sand"), "enum")), (size_t)hypofab_sand_count());
+  assert_int_equal(json_array_size(json_object_get(at(material, "sand"), "enum")),
+                   (size_t)hypofab_model_set_count(hypofab_model_find("sand")));
   const json_t *parameters = at(material, "parameters");
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; ++i) {
+  for (int i = 0; i < SAND_N_PARAMETERS; ++i) {
     hypofab_parameter_info info;
-    assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
     assert_string_equal(json_string_value(json_object_get(at(parameters, info.name), "type")), "number");
   }
   const json_t *stress = at(json_object_get(at(schema, "states"), "items"), "stress");

@@ -11,6 +11,7 @@
 
 #include "deck/scratch.h"
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 static const char *const components[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
@@ -87,10 +88,10 @@ static double number_of(const json_t *object, const char *key) {
 static void probe_start(const hypofab_subspace *space, const hypofab_probe_options *options, int n,
                         hypofab_answer *answers, hypofab_state *state) {
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  *state = (hypofab_state){{-100, -140, -80, 5, 0, 0}, {0.2, -1, 0, 0.3, 0, 0}, 0.64};
-  const double size = tensor_norm(state->delta);
-  for (int k = 0; k < 6; ++k) state->delta[k] *= material.R / size;
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  *state = (hypofab_state){{-100, -140, -80, 5, 0, 0}, {0.2, -1, 0, 0.3, 0, 0, 0.64}};
+  const double size = tensor_norm(state->variable);
+  for (int k = 0; k < 6; ++k) state->variable[k] *= material.value[SAND_R] / size;
   double directions[400][6];
   assert_in_range(n, 1, 400);
   assert_int_equal(hypofab_directions(space, n, directions), HYPOFAB_OK);
@@ -122,7 +123,9 @@ static void rows_are_the_answers_of_the_library(void **unused) {
     assert_int_equal(t.rows, cases[c].n);
     hypofab_subspace space;
     hypofab_answer answers[400];
-    hypofab_state state = {{-100, -140, -80, 5, 0, 0}, {0}, 0};
+    hypofab_material material;
+    hypofab_material_built_in("paper000", &material);
+    hypofab_state state = {{-100, -140, -80, 5, 0, 0}, {[VOID_RATIO] = 0}};
     const double x[6] = {1}, y[6] = {0, 1};
     if (c == 0) hypofab_subspace_plane(x, y, &space);
     if (c == 1) hypofab_subspace_principal(NULL, &space);
@@ -139,9 +142,9 @@ static void rows_are_the_answers_of_the_library(void **unused) {
       assert_true(tensor_distance(tensor, answers[i].response) < 1e-10 * size);
       hypofab_subspace_coordinates(&space, answers[i].response, coordinates);
       assert_true(fabs(table_at(&t, i, "response_2") - coordinates[1]) < 1e-10 * size);
-      hypofab_subspace_coordinates(&space, state.delta, coordinates);
+      hypofab_subspace_coordinates(&space, state.variable, coordinates);
       assert_true(fabs(table_at(&t, i, "delta_1") - coordinates[0] / 1e-4) < 1e-12);
-      hypofab_probe_measure(cases[c].library.imposed, &state, &answers[i], &measures);
+      hypofab_probe_measure(cases[c].library.imposed, &material, &state, &answers[i], &measures);
       assert_true(fabs(table_at(&t, i, "stiffness") / measures.stiffness - 1.0) < 1e-10);
       assert_true(fabs(table_at(&t, i, "angle_to_delta") - measures.angle_to_delta) < 1e-6);
       assert_true(table_at(&t, i, "status") == 0 && table_at(&t, i, "probe") == i);

@@ -219,7 +219,7 @@ static void stability_is_a_choice(void **state) {
         i ? "compression_positive" : "tension_positive");
     assert_int_equal(scratch_run(text, scratch_path("out"), NULL, NULL), HYPOFAB_OK);
     table t = table_read(scratch_path("out/t.csv"));
-    assert_int_equal(t.columns, HYPOFAB_N_QUANTITIES + 2); /* step and event */
+    assert_int_equal(t.columns, HYPOFAB_FIRST_NUMBER + 2); /* step and event */
     assert_true(table_at(&t, -1, "work2_min") > 0 && table_at(&t, -1, "work2") > table_at(&t, -1, "work2_min"));
     assert_true(table_at(&t, -1, "acoustic_ratio") > 0 && table_at(&t, -1, "bound") < 1);
     work[i] = table_at(&t, -1, "work2_zz");

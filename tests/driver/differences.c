@@ -48,9 +48,9 @@ hypofab_variation variation_times(const hypofab_variation *variation, double fac
 /* The subject at x + h. */
 static subject moved(const subject *s, const hypofab_variation *v, double h) {
   subject m = *s;
-  double *parameter = (double *)&m.material, *state = (double *)&m.state;
-  const double *by_parameter = (const double *)&v->material, *by_state = (const double *)&v->initial;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) parameter[i] += h * by_parameter[i];
+  double *parameter = m.material.value, *state = (double *)&m.state;
+  const double *by_parameter = v->parameter, *by_state = (const double *)&v->initial;
+  for (int i = 0; i < HYPOFAB_MAX_PARAMETERS; i++) parameter[i] += h * by_parameter[i];
   for (size_t i = 0; i < sizeof m.state / sizeof *state; i++) state[i] += h * by_state[i];
   for (int k = 0; k < m.n_steps; k++) {
     hypofab_step *step = &m.steps[k];

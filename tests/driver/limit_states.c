@@ -2,13 +2,15 @@
 
 #include <math.h>
 
+#include "support/sand.h"
+
 scalars scalars_of(const hypofab_material *m, const double stress[3], double e) {
   scalars s;
-  const double sine = sin(m->phi_c * acos(-1.0) / 180.0);
+  const double sine = sin(m->value[SAND_PHI_C] * acos(-1.0) / 180.0);
   double trace = 0.0, squared = 0.0, cubed = 0.0, deviator = 0.0;
-  for (int i = 0; i < 3; i++) trace += stress[i] - m->p_t;
+  for (int i = 0; i < 3; i++) trace += stress[i] - m->value[SAND_P_T];
   for (int i = 0; i < 3; i++) {
-    s.that[i] = (stress[i] - m->p_t) / trace;
+    s.that[i] = (stress[i] - m->value[SAND_P_T]) / trace;
     squared += s.that[i] * s.that[i];
     deviator += pow(s.that[i] - 1.0 / 3.0, 2);
     cubed += pow(s.that[i] - 1.0 / 3.0, 3);
@@ -18,12 +20,18 @@ scalars scalars_of(const hypofab_material *m, const double stress[3], double e) 
   const double lode = deviator > 1e-24 ? -sqrt(6.0) * cubed / pow(deviator, 1.5) : 1.0;
   s.F = sqrt(tangent * tangent / 8.0 + (2.0 - tangent * tangent) / (2.0 + sqrt(2.0) * tangent * lode)) -
         tangent / (2.0 * sqrt(2.0));
-  const double level = exp(-pow(-trace / m->h_s, m->n));
-  s.f_d = pow(fmax(0.0, e - m->e_d0 * level) / ((m->e_c0 - m->e_d0) * level), m->alpha);
-  const double f_e = pow(m->e_c0 * level / e, m->beta);
-  const double f_b = m->h_s / m->n * (1.0 + m->e_i0 * level) / (m->e_i0 * level) * pow(m->e_i0 / m->e_c0, m->beta) *
-                     pow(-trace / m->h_s, 1.0 - m->n) /
-                     (3.0 + s.a * s.a - s.a * sqrt(3.0) * pow((m->e_i0 - m->e_d0) / (m->e_c0 - m->e_d0), m->alpha));
+  const double level = exp(-pow(-trace / m->value[SAND_H_S], m->value[SAND_N]));
+  s.f_d = pow(fmax(0.0, e - m->value[SAND_E_D0] * level) / ((m->value[SAND_E_C0] - m->value[SAND_E_D0]) * level),
+              m->value[SAND_ALPHA]);
+  const double f_e = pow(m->value[SAND_E_C0] * level / e, m->value[SAND_BETA]);
+  const double f_b = m->value[SAND_H_S] / m->value[SAND_N] * (1.0 + m->value[SAND_E_I0] * level) /
+                     (m->value[SAND_E_I0] * level) *
+                     pow(m->value[SAND_E_I0] / m->value[SAND_E_C0], m->value[SAND_BETA]) *
+                     pow(-trace / m->value[SAND_H_S], 1.0 - m->value[SAND_N]) /
+                     (3.0 + s.a * s.a -
+                      s.a * sqrt(3.0) *
+                          pow((m->value[SAND_E_I0] - m->value[SAND_E_D0]) / (m->value[SAND_E_C0] - m->value[SAND_E_D0]),
+                              m->value[SAND_ALPHA]));
   s.f_s = f_b * f_e / squared;
   return s;
 }

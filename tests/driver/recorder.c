@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/sand.h"
+
 int recorder_take(const hypofab_row *row, void *user) {
   recorder *r = user;
   if (r->n == r->capacity) {
@@ -24,11 +26,11 @@ void paper_test(int number, hypofab_material *material, hypofab_state *state, hy
   const int isotropic = number >= 2, axis = number % 2 == 0 ? 1 : 0;
   hypofab_fabric f;
   hypofab_initial_delta delta;
-  hypofab_sand("paper000", material);
+  hypofab_material_built_in("paper000", material);
   hypofab_fabric_from_tensor(fabric[isotropic], &f);
-  hypofab_fabric_to_delta(&f, material->R, 0.05, &delta);
-  *state = (hypofab_state){{-100, -100, -100, 0, 0, 0}, {0}, isotropic ? 0.642 : 0.640};
-  memcpy(state->delta, delta.delta, sizeof state->delta);
+  hypofab_fabric_to_delta(&f, material->value[SAND_R], 0.05, &delta);
+  *state = (hypofab_state){{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = isotropic ? 0.642 : 0.640}};
+  memcpy(state->variable, delta.delta, 6 * sizeof *state->variable);
   memset(steps, 0, 2 * sizeof *steps);
   for (int i = 0; i < 2; i++) hypofab_step_preset(&steps[i], "drained_triaxial_compression", axis, 0.01);
   steps[0].until = (hypofab_mark){HYPOFAB_EPS_Q, 0.001};

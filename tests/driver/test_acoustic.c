@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "limit_states.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -81,10 +82,10 @@ static void test_smallest_determinant(void **unused) {
   for (int k = 0; k < 60; k++) {
     hypofab_material material = random_material(&r);
     hypofab_state state = sheared_state(&r, &material);
-    if (k % 3 == 0) material.m_R = 0.0;
+    if (k % 3 == 0) material.value[SAND_M_R] = 0.0;
     hypofab_stability s;
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
-    const int two_branches = tensor_norm(state.delta) > 0.0 && material.m_R > 0.5;
+    const int two_branches = tensor_norm(state.variable) > 0.0 && material.value[SAND_M_R] > 0.5;
     const double scale = fabs(s.acoustic / s.acoustic_ratio);
     double lowest = INFINITY;
     for (int i = 0; i < 400; i++) {
@@ -99,17 +100,17 @@ static void test_smallest_determinant(void **unused) {
         for (int c = 0; c < 3; c++) n[c] /= size;
       }
       random_direction(&r, D0);
-      if (two_branches) memcpy(D0, state.delta, sizeof D0);
-      const double size = tensor_norm(D0), h = material.m_R > 0.5 ? 1e-1 : 1e-5;
+      if (two_branches) memcpy(D0, state.variable, sizeof D0);
+      const double size = tensor_norm(D0), h = material.value[SAND_M_R] > 0.5 ? 1e-1 : 1e-5;
       for (int c = 0; c < 6; c++) D0[c] *= (i % 4 < 2 ? 1.0 : -1.0) / size;
       lowest = fmin(lowest, determinant_by_rates(&material, &state, D0, n, h));
       assert_true(lowest > s.acoustic - 1e-6 * scale);
     }
-    if (material.m_R > 0.5) { /* on the given plane, on both branches: the smaller one is the answer */
+    if (material.value[SAND_M_R] > 0.5) { /* on the given plane, on both branches: the smaller one is the answer */
       double D0[6], both = INFINITY;
-      const double *n = s.band_normal, size = tensor_norm(state.delta);
+      const double *n = s.band_normal, size = tensor_norm(state.variable);
       for (int side = -1; side < 2; side += 2) {
-        for (int c = 0; c < 6; c++) D0[c] = side * (two_branches ? state.delta[c] / size : c == 0);
+        for (int c = 0; c < 6; c++) D0[c] = side * (two_branches ? state.variable[c] / size : c == 0);
         both = fmin(both, determinant_by_rates(&material, &state, D0, n, 1e-1));
       }
       assert_true(fabs(both - s.acoustic) < 1e-8 * scale);
@@ -125,8 +126,8 @@ static void test_a_band_exists_beyond_the_criterion(void **unused) {
   (void)unused;
   random_stream r = {74};
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
   int found = 0;
   for (int k = 0; k < 200 && found < 20; k++) {
     hypofab_state state = sheared_state(&r, &material), outside, inside;
@@ -173,24 +174,28 @@ static void test_a_band_exists_beyond_the_criterion(void **unused) {
 static void test_plane_limit_state_is_a_band(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
   hypofab_stability s;
   double lower = 0.0, upper = 0.5; /* sigma_yy between the others, by the sign of D_yy */
   for (int i = 0; i < 60; i++) {
     const double share = 0.5 * (lower + upper);
     /* On the cone of Matsuoka & Nakai at phi_c: I1 I2/I3 = (9 - sin^2)/(1 - sin^2), a quadratic for sigma_zz. */
-    const double sine = sin(material.phi_c * acos(-1.0) / 180.0), k = (9.0 - sine * sine) / (1.0 - sine * sine);
+    const double sine = sin(material.value[SAND_PHI_C] * acos(-1.0) / 180.0),
+                 k = (9.0 - sine * sine) / (1.0 - sine * sine);
     double ratio[2] = {1.0, 20.0};
     for (int j = 0; j < 100; j++) {
       const double z = 0.5 * (ratio[0] + ratio[1]), y = 1.0 + share * (z - 1.0);
       ratio[(1.0 + y + z) * (y + z + y * z) / (y * z) > k] = z;
     }
-    hypofab_state state = {{-100, -100 * (1.0 + share * (ratio[0] - 1.0)), -100 * ratio[0], 0, 0, 0}, {0}, 0.0}, rate;
+    hypofab_state state = {{-100, -100 * (1.0 + share * (ratio[0] - 1.0)), -100 * ratio[0], 0, 0, 0},
+                           {[VOID_RATIO] = 0.0}},
+                  rate;
     const double trace = state.stress[0] + state.stress[1] + state.stress[2];
-    state.void_ratio = material.e_c0 * exp(-pow(-trace / material.h_s, material.n));
+    state.variable[VOID_RATIO] =
+        material.value[SAND_E_C0] * exp(-pow(-trace / material.value[SAND_H_S], material.value[SAND_N]));
     const double principal[3] = {state.stress[0], state.stress[1], state.stress[2]};
-    const scalars m = scalars_of(&material, principal, state.void_ratio);
+    const scalars m = scalars_of(&material, principal, state.variable[VOID_RATIO]);
     /* At the critical state D is along the deviator T*hat. */
     double flow[6] = {0};
     for (int c = 0; c < 3; c++) flow[c] = -(m.that[c] - 1.0 / 3.0);

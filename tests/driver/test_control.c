@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -92,7 +93,7 @@ static void test_peak_under_stress_control(void **unused) {
     hypofab_step steps[2], push;
     recorder r = {0};
     paper_test(2, &material, &state, steps);
-    if (models[i]) material.m_R = 0.0;
+    if (models[i]) material.value[SAND_M_R] = 0.0;
     /* The peak, from strain control. */
     assert_int_equal(hypofab_test_run(&material, &state, steps, 2, NULL, recorder_take, &r, NULL), HYPOFAB_OK);
     double peak = 0.0;
@@ -140,7 +141,7 @@ static void test_loss_of_uniqueness_is_named(void **unused) {
   (void)unused;
   random_stream r = {33};
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   int unique = 0, not_unique = 0, not_controllable = 0;
   for (int i = 0; i < 300; i++) {
     hypofab_state state = random_state(&r, &material);
@@ -148,8 +149,8 @@ static void test_loss_of_uniqueness_is_named(void **unused) {
     hypofab_test_outcome outcome;
     double reversal[36], jump[6], direction[6], other[6], wanted[6];
     hypofab_branch branch;
-    random_direction(&r, state.delta);
-    for (int k = 0; k < 6; k++) state.delta[k] *= material.R * (1.0 - 1e-15);
+    random_direction(&r, state.variable);
+    for (int k = 0; k < 6; k++) state.variable[k] *= material.value[SAND_R] * (1.0 - 1e-15);
     assert_int_equal(hypofab_linear_parts(&material, &state, reversal, jump, direction, &branch), HYPOFAB_OK);
     /* Five strain rates are zero in a random basis; the sixth condition is on stress along a random tensor. */
     random_direction(&r, other);
@@ -193,8 +194,8 @@ static void test_loss_of_uniqueness_is_named(void **unused) {
 static void test_path_stays_on_its_branch(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-90, -95, -130, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-90, -95, -130, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   hypofab_test_outcome end[2], again;
   hypofab_step step = {0};
   for (int by_stress = 0; by_stress < 2; by_stress++) {

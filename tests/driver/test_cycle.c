@@ -5,6 +5,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 /* clang-format off */
@@ -17,9 +18,9 @@
 static const hypofab_test_options tight = {.tolerance = 1e-10};
 
 static void sand(const char *name, double p, double void_ratio, hypofab_material *material, hypofab_state *state) {
-  assert_int_equal(hypofab_sand(name, material), HYPOFAB_OK);
-  *state = (hypofab_state){{-p, -p, -p, 0, 0, 0}, {0}, void_ratio};
-  for (int k = 0; k < 3; k++) state->delta[k] = -material->R * (1.0 - 1e-15) / sqrt(3.0);
+  assert_int_equal(hypofab_material_built_in(name, material), HYPOFAB_OK);
+  *state = (hypofab_state){{-p, -p, -p, 0, 0, 0}, {[VOID_RATIO] = void_ratio}};
+  for (int k = 0; k < 3; k++) state->variable[k] = -material->value[SAND_R] * (1.0 - 1e-15) / sqrt(3.0);
 }
 
 static hypofab_step preset(const char *name, double axis, double normal, double drive) {
@@ -65,7 +66,7 @@ static void test_cycles_are_the_steps_they_stand_for(void **unused) {
     for (int k = HYPOFAB_EPS_XX; k <= HYPOFAB_EPS_ZZ; k++)
       assert_true(fabs(together.last.value[k] - apart.last.value[k]) < 1e-9);
     assert_true(tensor_distance(together.state.stress, apart.state.stress) < 1e-6);
-    assert_true(fabs(together.state.void_ratio - apart.state.void_ratio) < 1e-9);
+    assert_true(fabs(together.state.variable[VOID_RATIO] - apart.state.variable[VOID_RATIO]) < 1e-9);
     recorder_clear(&r);
   }
 }
@@ -253,7 +254,7 @@ static void test_a_stop_that_comes_and_goes(void **unused) {
   hypofab_state state;
   const hypofab_test_options coarse = {.tolerance = 1e-2};
   sand("karlsruhe_fine", 200.0, 0.85, &material, &state);
-  material.m_R = 0.0; /* nothing but the plain model's smoothness */
+  material.value[SAND_M_R] = 0.0; /* nothing but the plain model's smoothness */
   hypofab_step step = preset("undrained_triaxial_compression", 2, -1, 0);
   step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -0.05};
   step.rows = 5000;

@@ -5,6 +5,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -45,7 +46,7 @@ static void test_directional_stiffnesses_of_table_3(void **unused) {
     hypofab_step steps[2];
     hypofab_test_outcome outcome;
     paper_test(number, &material, &state, steps);
-    memcpy(state.delta, printed[number >= 2], sizeof state.delta);
+    memcpy(state.variable, printed[number >= 2], 6 * sizeof *state.variable);
     assert_int_equal(hypofab_test_run(&material, &state, steps, 1, NULL, NULL, NULL, &outcome), HYPOFAB_OK);
     const double G = outcome.last.value[HYPOFAB_Q] / outcome.last.value[HYPOFAB_EPS_Q];
     assert_true(fabs(G - exact[number]) < 0.5);
@@ -81,8 +82,9 @@ static void test_agrees_with_many_small_updates(void **unused) {
     if (status) continue;
     compared++;
     assert_true(tensor_distance(outcome.state.stress, updated.stress) < 1e-7 * tensor_norm(updated.stress));
-    if (material.m_R > 0.5) assert_true(tensor_distance(outcome.state.delta, updated.delta) < 1e-7 * material.R);
-    assert_true(fabs(outcome.state.void_ratio / updated.void_ratio - 1.0) < 1e-7);
+    if (material.value[SAND_M_R] > 0.5)
+      assert_true(tensor_distance(outcome.state.variable, updated.variable) < 1e-7 * material.value[SAND_R]);
+    assert_true(fabs(outcome.state.variable[VOID_RATIO] / updated.variable[VOID_RATIO] - 1.0) < 1e-7);
   }
   assert_true(compared > 20);
 }
@@ -91,8 +93,8 @@ static void test_agrees_with_many_small_updates(void **unused) {
 static void test_published_oedometer(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.70};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.70}};
   const double ends[3] = {-0.0049, -0.005, -0.0049};
   hypofab_step steps[3];
   recorder r = {0};
@@ -196,8 +198,8 @@ static void test_steps_in_sequence(void **unused) {
 static void test_cycles_agree_with_updates(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("karlsruhe_fine", &material), HYPOFAB_OK);
-  hypofab_state state = {{-200, -200, -200, 0, 0, 0}, {0}, 0.9}, updated = state;
+  assert_int_equal(hypofab_material_built_in("karlsruhe_fine", &material), HYPOFAB_OK);
+  hypofab_state state = {{-200, -200, -200, 0, 0, 0}, {[VOID_RATIO] = 0.9}}, updated = state;
   hypofab_step steps[8];
   hypofab_test_outcome outcome;
   const hypofab_control strain[6] = {0};

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -74,9 +75,9 @@ static void test_the_plain_envelope_is_an_ellipsoid_around_N(void **unused) {
   random_stream r = {3};
   for (int c = 0; c < 30; c++) {
     hypofab_material material = random_material(&r);
-    material.m_R = 0.0;
+    material.value[SAND_M_R] = 0.0;
     hypofab_state state = random_state(&r, &material);
-    memset(state.delta, 0, sizeof state.delta);
+    memset(state.variable, 0, 6 * sizeof *state.variable);
     double stiffness[36], jump[6], direction[6];
     hypofab_branch branch;
     assert_int_equal(hypofab_linear_parts(&material, &state, stiffness, jump, direction, &branch), HYPOFAB_OK);
@@ -91,7 +92,7 @@ static void test_the_plain_envelope_is_an_ellipsoid_around_N(void **unused) {
     assert_true(fit.nonlinearity > 1e-4);
     if (space.dimension == 6) { /* L:X = f_s (F^2 X + a^2 That (That:X)): five equal semi-axes, one along That */
       double along[6], scaled[6];
-      for (int i = 0; i < 6; i++) scaled[i] = state.stress[i] - (i < 3 ? material.p_t : 0.0);
+      for (int i = 0; i < 6; i++) scaled[i] = state.stress[i] - (i < 3 ? material.value[SAND_P_T] : 0.0);
       for (int i = 0; i < 6; i++) {
         along[i] = 0.0;
         for (int j = 0; j < 6; j++) along[i] += stiffness[6 * i + j] * scaled[j] / tensor_norm(scaled);
@@ -108,13 +109,13 @@ static void test_the_plain_envelope_is_an_ellipsoid_around_N(void **unused) {
 static void test_linearity_is_that_of_the_elastic_range(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  hypofab_state state = {{-100, -120, -90, 0, 3, 0}, {0}, 0.64};
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  hypofab_state state = {{-100, -120, -90, 0, 3, 0}, {[VOID_RATIO] = 0.64}};
   hypofab_subspace space;
   hypofab_ellipsoid fit;
   for (int imposed = 0; imposed < 2; imposed++)
     for (int mobilised = 0; mobilised < 2; mobilised++) {
-      state.delta[1] = -mobilised * material.R;
+      state.variable[1] = -mobilised * material.value[SAND_R];
       const hypofab_probe_options options = {.imposed = imposed, .unload = 1};
       take_space(3, &space);
       assert_int_equal(

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 /* clang-format off */
@@ -15,11 +16,11 @@
 enum { N = 72 };
 
 static hypofab_state start(const hypofab_material *material, double u, double v) {
-  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7};
+  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   const double size = sqrt(u * u + 2.0 * v * v);
   const double delta[3] = {v, u, v};
   if (size > 0.0)
-    for (int k = 0; k < 3; k++) state.delta[k] = material->R * (1.0 - 1e-15) * delta[k] / size;
+    for (int k = 0; k < 3; k++) state.variable[k] = material->value[SAND_R] * (1.0 - 1e-15) * delta[k] / size;
   return state;
 }
 
@@ -31,9 +32,9 @@ static void test_continued_loading_is_the_plain_response(void **unused) {
   (void)unused;
   hypofab_material material, plain;
   hypofab_probe with[N], without[N];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   plain = material;
-  plain.m_R = 0.0;
+  plain.value[SAND_M_R] = 0.0;
   const double angle = acos(-1.0) * 5.0 / 6.0; /* 150 degrees: probe number 30 */
   const hypofab_state state = start(&material, cos(angle), sin(angle) / sqrt(2.0));
   assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, with), HYPOFAB_OK);
@@ -45,7 +46,7 @@ static void test_continued_loading_is_the_plain_response(void **unused) {
   int against = 0;
   for (int i = 0; i < N; i++) {
     assert_true(fabs(tensor_norm(with[i].stretching) - 1.0) < 1e-14);
-    if (tensor_dot(state.delta, with[i].stretching) > -1e-9 * material.R) continue;
+    if (tensor_dot(state.variable, with[i].stretching) > -1e-9 * material.value[SAND_R]) continue;
     assert_true(tensor_norm(with[i].response) > tensor_norm(without[i].response));
     against++;
   }
@@ -57,7 +58,7 @@ static void test_unmobilised_is_linear(void **unused) {
   (void)unused;
   hypofab_material material;
   hypofab_probe probes[N];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state state = start(&material, 0.0, 0.0);
   assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, probes), HYPOFAB_OK);
   for (int i = 0; i < N / 2; i++) {
@@ -72,7 +73,7 @@ static void test_small_finite_probes_are_the_rates(void **unused) {
   (void)unused;
   hypofab_material material;
   hypofab_probe rates[N], small[N], smaller[N];
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
   const hypofab_state state = start(&material, 0.3, -1.0);
   assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, rates), HYPOFAB_OK);
   assert_int_equal(hypofab_envelope(&material, &state, 1, 1e-7, N, small), HYPOFAB_OK);
@@ -88,14 +89,14 @@ static void test_refusals(void **unused) {
   (void)unused;
   hypofab_material material;
   hypofab_probe probes[N];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   hypofab_state state = start(&material, 1.0, 0.0);
   assert_int_equal(hypofab_envelope(&material, &state, 3, 0.0, N, probes), HYPOFAB_BAD_ARGUMENT);
   assert_int_equal(hypofab_envelope(&material, &state, 1, -1.0, N, probes), HYPOFAB_BAD_ARGUMENT);
   assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, 0, probes), HYPOFAB_BAD_ARGUMENT);
   assert_int_equal(hypofab_envelope(&material, &state, 1, 0.5, N, probes), HYPOFAB_OUT_OF_DOMAIN);
   assert_non_null(strstr(hypofab_last_message(), "degrees"));
-  state.void_ratio = 0.0;
+  state.variable[VOID_RATIO] = 0.0;
   assert_int_equal(hypofab_envelope(&material, &state, 1, 0.0, N, probes), HYPOFAB_BAD_STATE);
 }
 

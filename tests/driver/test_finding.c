@@ -5,6 +5,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 /* clang-format off */
@@ -72,8 +73,8 @@ static void test_peak_under_stress_control(void **unused) {
 static void test_limit_of_a_constant_q_path(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -100, -200, 0, 0, 0}, {0}, 0.9};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -200, 0, 0, 0}, {[VOID_RATIO] = 0.9}};
   hypofab_step step = preset("constant_q_unloading", 2, 1.0, 1);
   recorder r = {0};
   step.until = (hypofab_mark){HYPOFAB_P, 10.0};
@@ -88,8 +89,8 @@ static void test_limit_of_a_constant_q_path(void **unused) {
 static void test_liquefaction(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("karlsruhe_fine", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 1.10};
+  assert_int_equal(hypofab_material_built_in("karlsruhe_fine", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 1.10}};
   hypofab_step step = preset("undrained_triaxial_compression", 2, 1e-3, 0);
   recorder r = {0};
   step.until = (hypofab_mark){HYPOFAB_EPS_ZZ, -1.0};
@@ -110,8 +111,8 @@ static void test_liquefaction(void **unused) {
 static void test_leaving_the_domain(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   hypofab_step step = preset("isotropic_extension", 2, 1e-2, 0);
   recorder r = {0};
   step.until = (hypofab_mark){HYPOFAB_EPS_V, 0.05};
@@ -124,8 +125,8 @@ static void test_leaving_the_domain(void **unused) {
 static void test_principal_axes_that_cannot_turn(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   const hypofab_argument arguments[] = {{"axis", {2}}, {"normal", {1}}};
   hypofab_step step = {0};
   recorder r = {0};

@@ -7,6 +7,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 /* clang-format off */
@@ -39,7 +40,7 @@ static void compare(const hypofab_material *material, const hypofab_state *state
       for (int c = HYPOFAB_SIG_XX; c <= HYPOFAB_SIG_YZ; c++) assert_true(fabs(a[c] - b[c]) < 1e-6 * p);
       for (int c = HYPOFAB_EPS_XX; c <= HYPOFAB_EPS_YZ; c++) assert_true(fabs(a[c] - b[c]) < 1e-6 * strain);
       for (int c = HYPOFAB_DELTA_XX; c <= HYPOFAB_DELTA_YZ; c++)
-        assert_true(fabs(a[c] - b[c]) < 1e-6 * (material->m_R > 0.5 ? material->R : 1.0));
+        assert_true(fabs(a[c] - b[c]) < 1e-6 * (material->value[SAND_M_R] > 0.5 ? material->value[SAND_R] : 1.0));
       assert_true(fabs(a[HYPOFAB_VOID_RATIO] - b[HYPOFAB_VOID_RATIO]) < 1e-6);
     }
     recorder_clear(&other);
@@ -56,7 +57,7 @@ static void test_element_tests(void **unused) {
     hypofab_step steps[2];
     paper_test(number, &material, &state, steps);
     steps[0].rows = 5;
-    if (number == 3) material.m_R = 0.0; /* the plain model */
+    if (number == 3) material.value[SAND_M_R] = 0.0; /* the plain model */
     compare(&material, &state, steps, 2, HYPOFAB_OK);
   }
 }
@@ -66,8 +67,8 @@ static void test_element_tests(void **unused) {
 static void test_cycles_with_events(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -100, -200, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -200, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   enum { N = 9 };
   hypofab_step steps[N];
   memset(steps, 0, sizeof steps);
@@ -84,8 +85,8 @@ static void test_cycles_with_events(void **unused) {
 static void test_undrained_cycles(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("karlsruhe_fine", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-200, -200, -200, 0, 0, 0}, {0}, 0.85};
+  assert_int_equal(hypofab_material_built_in("karlsruhe_fine", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-200, -200, -200, 0, 0, 0}, {[VOID_RATIO] = 0.85}};
   enum { N = 12 };
   hypofab_step steps[N];
   memset(steps, 0, sizeof steps);
@@ -103,10 +104,10 @@ static void test_undrained_cycles(void **unused) {
 static void test_reversal_inside_a_step(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("karlsruhe_fine", &material), HYPOFAB_OK);
-  hypofab_state state = {{-90, -150, -90, 30, 0, 0}, {0}, 0.85};
+  assert_int_equal(hypofab_material_built_in("karlsruhe_fine", &material), HYPOFAB_OK);
+  hypofab_state state = {{-90, -150, -90, 30, 0, 0}, {[VOID_RATIO] = 0.85}};
   const double mobilised[6] = {0.5, -0.5, 0, 0.5, 0, 0};
-  for (int k = 0; k < 6; k++) state.delta[k] = material.R * (1.0 - 1e-15) * mobilised[k];
+  for (int k = 0; k < 6; k++) state.variable[k] = material.value[SAND_R] * (1.0 - 1e-15) * mobilised[k];
   const hypofab_control control[6] = {HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE, HYPOFAB_STRESS_RATE,
                                       HYPOFAB_STRAIN_RATE, HYPOFAB_STRAIN_RATE, HYPOFAB_STRAIN_RATE};
   const double rates[2][6] = {{0, 0, 0, -1e-3, 0, 0}, {0, 0, 0, 1e-3, 0, 0}};
@@ -148,9 +149,9 @@ static hypofab_status fill_preset(hypofab_step *step, const hypofab_preset *pres
 static void test_every_preset(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  hypofab_state state = {{-80, -90, -150, 0, 0, 0}, {0}, 0.7};
-  state.delta[2] = -material.R * (1.0 - 1e-15);
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  hypofab_state state = {{-80, -90, -150, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
+  state.variable[2] = -material.value[SAND_R] * (1.0 - 1e-15);
   int n_compared = 0;
   const hypofab_preset *preset;
   for (int i = 0; (preset = hypofab_preset_at(i)); i++) {
@@ -171,8 +172,8 @@ static void test_every_kind_of_step(void **unused) {
   static const double time[4] = {0, 1, 2, 4};
   static const double value[4][6] = {{0}, {1e-3, 0, 0, 0, 0, 0}, {1e-3, 0, 0, 0, 5e-4, 0}, {0, 0, 0, 0, -5e-4, 0}};
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-80, -95, -120, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-80, -95, -120, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   const hypofab_argument turn[] = {{"axis", {2}}, {"normal", {1}}, {"rate", {30}}};
   hypofab_step steps[3];
   memset(steps, 0, sizeof steps);

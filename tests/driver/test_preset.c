@@ -5,6 +5,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 /* clang-format off */
@@ -106,7 +107,7 @@ enum { N_EXPECTATIONS = sizeof expectations / sizeof *expectations };
 static void start(const char *name, hypofab_material *material, hypofab_state *state) {
   hypofab_step steps[2];
   paper_test(0, material, state, steps);
-  state->void_ratio = 0.7;
+  state->variable[VOID_RATIO] = 0.7;
   if (strncmp(name, "constant_q", 10) == 0) state->stress[2] = -130.0;
   if (strcmp(name, "hollow_cylinder") == 0 || strcmp(name, "hollow_cylinder_rotation") == 0)
     memcpy(state->stress, (double[6]){-80, -95, -120, 0, 0, 0}, sizeof state->stress);
@@ -268,10 +269,10 @@ static void test_presets_turn_with_their_axes(void **unused) {
           if (!strcmp(arguments[k].name, "axis") || !strcmp(arguments[k].name, "normal"))
             arguments[k].value[0] = to[(int)arguments[k].value[0]];
         for (int a = 0; a < 3; a++) {
-          state.stress[to[a]] = given.stress[a], state.delta[to[a]] = given.delta[a];
+          state.stress[to[a]] = given.stress[a], state.variable[to[a]] = given.variable[a];
           for (int b = 0; b < a; b++) {
             state.stress[shear[to[a]][to[b]]] = given.stress[shear[a][b]];
-            state.delta[shear[to[a]][to[b]]] = given.delta[shear[a][b]];
+            state.variable[shear[to[a]][to[b]]] = given.variable[shear[a][b]];
           }
         }
       }
@@ -290,8 +291,8 @@ static void test_presets_turn_with_their_axes(void **unused) {
 static void test_isotropic_compression_of_an_isotropic_state(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   hypofab_step step;
   hypofab_test_outcome outcome;
   memset(&step, 0, sizeof step);

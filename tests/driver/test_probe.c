@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -38,8 +39,8 @@ static hypofab_status probe(const hypofab_material *material, const hypofab_stat
 /* A dense sand below the peak, where stress probes in all directions have an answer. */
 static hypofab_state sheared(const hypofab_material *material) {
   const double back[6] = {0.3, -0.8, 0.1, 0.2, -0.1, 0.3};
-  hypofab_state state = {{-100, -140, -80, 5, -10, 8}, {0}, 0.64};
-  for (int k = 0; k < 6; k++) state.delta[k] = 0.7 * material->R * back[k] / tensor_norm(back);
+  hypofab_state state = {{-100, -140, -80, 5, -10, 8}, {[VOID_RATIO] = 0.64}};
+  for (int k = 0; k < 6; k++) state.variable[k] = 0.7 * material->value[SAND_R] * back[k] / tensor_norm(back);
   return state;
 }
 
@@ -69,10 +70,10 @@ static void test_strain_rates_are_those_of_the_model(void **unused) {
 static void test_the_plain_model_leaves_twice_N(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
   hypofab_state state = sheared(&material);
-  memset(state.delta, 0, sizeof state.delta);
+  memset(state.variable, 0, 6 * sizeof *state.variable);
   double stiffness[36], jump[6], direction[6];
   hypofab_branch branch;
   assert_int_equal(hypofab_linear_parts(&material, &state, stiffness, jump, direction, &branch), HYPOFAB_OK);
@@ -90,9 +91,9 @@ static void test_the_plain_model_leaves_twice_N(void **unused) {
 static void test_the_elastic_range_is_linear(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   hypofab_state state = sheared(&material);
-  memset(state.delta, 0, sizeof state.delta);
+  memset(state.variable, 0, 6 * sizeof *state.variable);
   take_directions(6);
   for (int imposed = 0; imposed < 2; imposed++) {
     assert_int_equal(probe(&material, &state, imposed, 0.0, 1, answers), HYPOFAB_OK);
@@ -105,9 +106,9 @@ static void test_the_elastic_range_is_linear(void **unused) {
 static void test_stress_rates_are_answered_by_the_strain_rate_that_makes_them(void **unused) {
   (void)unused;
   hypofab_material material, plain;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   plain = material;
-  plain.m_R = 0.0;
+  plain.value[SAND_M_R] = 0.0;
   const hypofab_state state = sheared(&material);
   for (int c = 0; c < 6; c++) {
     const hypofab_material *m = c < 3 ? &material : &plain;
@@ -126,7 +127,7 @@ static void test_stress_rates_are_answered_by_the_strain_rate_that_makes_them(vo
 static void test_finite_probes_shrink_to_rates(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state state = sheared(&material);
   take_directions(6);
   static const double sizes[2][2] = {{1e-6, 1e-7}, {1e-1, 1e-2}};
@@ -150,7 +151,7 @@ static void test_finite_probes_shrink_to_rates(void **unused) {
 static void test_finite_probes_are_increments(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state state = sheared(&material);
   const double size = 2e-4; /* of paper 001 */
   take_directions(6);
@@ -173,7 +174,7 @@ static void test_finite_probes_are_increments(void **unused) {
 static void test_stress_probes_keep_the_balance_of_strain_and_stress(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state state = sheared(&material);
   enum { PARTS = 40 };
   const double size = 2.0; /* kPa */
@@ -213,13 +214,13 @@ static void test_objectivity(void **unused) {
   (void)unused;
   random_stream r = {5};
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
   const hypofab_state state = sheared(&material);
   double q[3][3], rotated[6];
   hypofab_state turned = state;
   random_rotation(&r, q);
   tensor_rotate(q, state.stress, turned.stress);
-  tensor_rotate(q, state.delta, turned.delta);
+  tensor_rotate(q, state.variable, turned.variable);
   static const double sizes[2][2] = {{0.0, 1e-5}, {0.0, 0.5}};
   for (int imposed = 0; imposed < 2; imposed++)
     for (int s = 0; s < 2; s++) {
@@ -241,7 +242,7 @@ static void test_objectivity(void **unused) {
 static void test_length_of_directions_and_threads_do_not_matter(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state state = sheared(&material);
   static const double sizes[2] = {1e-4, 1.0};
   for (int imposed = 0; imposed < 2; imposed++) {
@@ -276,9 +277,9 @@ static void check_partial(hypofab_status status, int fewest) {
 static void test_probes_without_answer_keep_their_status(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
-  const hypofab_state beyond = {{-100, -500, -100, 0, 0, 0}, {0}, 0.8};
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
+  const hypofab_state beyond = {{-100, -500, -100, 0, 0, 0}, {[VOID_RATIO] = 0.8}};
   take_directions(3);
   hypofab_status status = probe(&material, &beyond, HYPOFAB_IMPOSE_STRESS, 0.0, 0, answers);
   assert_true(status == HYPOFAB_NOT_CONTROLLABLE || status == HYPOFAB_NOT_UNIQUE);
@@ -286,7 +287,8 @@ static void test_probes_without_answer_keep_their_status(void **unused) {
   status = probe(&material, &beyond, HYPOFAB_IMPOSE_STRAIN, 0.01, 1, answers);
   assert_int_equal(status, HYPOFAB_OUT_OF_DOMAIN);
   check_partial(status, 1);
-  const hypofab_state before = {{-100, -280, -100, 0, 0, 0}, {0}, 0.8}; /* the next 30 kPa lead beyond the peak */
+  const hypofab_state before = {{-100, -280, -100, 0, 0, 0},
+                                {[VOID_RATIO] = 0.8}}; /* the next 30 kPa lead beyond the peak */
   status = probe(&material, &before, HYPOFAB_IMPOSE_STRESS, 30.0, 0, answers);
   assert_true(status && status < HYPOFAB_BAD_MATERIAL);
   check_partial(status, N / 4);
@@ -300,7 +302,7 @@ static int stop_at_once(const char *what, double fraction, void *user) {
 static void test_interruption(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state state = sheared(&material);
   take_directions(3);
   int calls = 0;
@@ -316,7 +318,7 @@ static void test_interruption(void **unused) {
 static void test_refusals(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   hypofab_state state = sheared(&material);
   const double(*d)[6] = (const double(*)[6])directions;
   take_directions(3);
@@ -328,7 +330,7 @@ static void test_refusals(void **unused) {
   memset(directions[3], 0, sizeof directions[3]);
   assert_int_equal(hypofab_probe_run(&material, &state, NULL, N, d, NULL, NULL, answers), HYPOFAB_BAD_ARGUMENT);
   assert_non_null(strstr(hypofab_last_message(), "direction 3"));
-  state.void_ratio = -1.0;
+  state.variable[VOID_RATIO] = -1.0;
   assert_int_equal(hypofab_probe_run(&material, &state, NULL, 3, d, NULL, NULL, answers), HYPOFAB_BAD_STATE);
 }
 

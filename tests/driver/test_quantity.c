@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 
 /* clang-format off */
@@ -15,10 +16,11 @@
 
 static void test_names_are_found_again(void **unused) {
   (void)unused;
-  for (int i = 0; i < HYPOFAB_N_QUANTITIES; i++)
+  for (int i = 0; i < HYPOFAB_FIRST_NUMBER; i++)
     assert_int_equal(hypofab_quantity_find(hypofab_quantity_name((hypofab_quantity)i)), i);
   assert_string_equal(hypofab_quantity_name(HYPOFAB_SIG_XZ), "sig_xz");
   assert_int_equal(hypofab_quantity_find("sigma"), HYPOFAB_N_QUANTITIES);
+  assert_null(hypofab_quantity_name(HYPOFAB_FIRST_NUMBER));
   assert_null(hypofab_quantity_name(HYPOFAB_N_QUANTITIES));
 }
 
@@ -38,8 +40,8 @@ static void test_values_follow_their_definitions(void **unused) {
                           3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
     const double eps_q = sqrt(2.0 / 9.0 * (pow(e[0] - e[1], 2) + pow(e[1] - e[2], 2) + pow(e[2] - e[0], 2)) +
                               4.0 / 3.0 * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5]));
-    const double rho =
-        sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) / material.R;
+    const double rho = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * (d[3] * d[3] + d[4] * d[4] + d[5] * d[5])) /
+                       material.value[SAND_R];
     assert_true(fabs(v[HYPOFAB_P] + (s[0] + s[1] + s[2]) / 3.0) < 1e-12 * v[HYPOFAB_P]);
     assert_true(fabs(v[HYPOFAB_Q] - q) < 1e-11 * v[HYPOFAB_P]);
     assert_true(fabs(v[HYPOFAB_EPS_Q] - eps_q) < 1e-14);
@@ -60,10 +62,10 @@ static void test_measures_of_principal_stresses(void **unused) {
   random_stream r = {51};
   for (int i = 0; i < 300; i++) {
     hypofab_material material;
-    hypofab_state state = {{0}, {0}, 0.7};
+    hypofab_state state = {{0}, {[VOID_RATIO] = 0.7}};
     hypofab_step step = {0};
     recorder first = {.stop_after = 1};
-    assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+    assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
     const int a = i % 3, n = (a + 1 + i / 3 % 2) % 3, l = 3 - a - n;
     const double s3 = random_uniform(&r, 50.0, 100.0), s1 = s3 * random_uniform(&r, 1.2, 2.5);
     const double b = i < 6 ? 0.0 : i < 12 ? 1.0 : random_uniform(&r, 0.0, 1.0), s2 = s3 + b * (s1 - s3);

@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "limit_states.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -22,7 +23,7 @@ static void test_smallest_work(void **unused) {
   for (int k = 0; k < 300; k++) {
     hypofab_material material = random_material(&r);
     hypofab_state state = sheared_state(&r, &material), rate;
-    if (k % 3 == 0) material.m_R = 0.0;
+    if (k % 3 == 0) material.value[SAND_M_R] = 0.0;
     hypofab_stability s;
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
     assert_true(fabs(tensor_norm(s.work_direction) - 1.0) < 1e-12);
@@ -41,7 +42,7 @@ static void test_smallest_work(void **unused) {
       assert_int_equal(hypofab_rate(&material, &state, D, &rate, NULL), HYPOFAB_OK);
       assert_true(tensor_dot(rate.stress, D) > s.work - 1e-9 * scale);
     }
-    negative += s.work < 0.0, plain += material.m_R <= 0.5, branch[s.work_branch]++;
+    negative += s.work < 0.0, plain += material.value[SAND_M_R] <= 0.5, branch[s.work_branch]++;
   }
   assert_true(negative > 10 && plain > 50 && branch[HYPOFAB_LOADING] > 10);
 }

@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "limit_states.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -25,23 +26,23 @@ static void test_linear_limit(void **unused) {
   random_stream r = {71};
   for (int k = 0; k < 40; k++) {
     hypofab_material material;
-    assert_int_equal(hypofab_sand(k % 2 ? "hochstetten" : "karlsruhe_fine", &material), HYPOFAB_OK);
+    assert_int_equal(hypofab_material_built_in(k % 2 ? "hochstetten" : "karlsruhe_fine", &material), HYPOFAB_OK);
     double principal[3], q[3][3];
     for (int i = 0; i < 3; i++) principal[i] = -random_uniform(&r, 60.0, 200.0);
     if (k == 0) principal[0] = principal[1] = principal[2]; /* isotropic: every plane is alike */
     if (k == 1) principal[0] = principal[2];
-    hypofab_state state = {.void_ratio = 0.8};
+    hypofab_state state = {.variable[VOID_RATIO] = 0.8};
     const double unrotated[6] = {principal[0], principal[1], principal[2], 0, 0, 0};
     random_rotation(&r, q);
     tensor_rotate(q, unrotated, state.stress);
     hypofab_stability s;
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
 
-    const scalars m = scalars_of(&material, principal, state.void_ratio);
+    const scalars m = scalars_of(&material, principal, state.variable[VOID_RATIO]);
     int least = 0;
     for (int i = 1; i < 3; i++)
       if (m.that[i] < m.that[least]) least = i;
-    const double c = material.m_R * m.f_s;
+    const double c = material.value[SAND_M_R] * m.f_s;
     const double expected = pow(c, 3) * pow(m.F, 6) / 4.0 * (1.0 + pow(m.a / m.F * m.that[least], 2));
     assert_true(fabs(s.acoustic / expected - 1.0) < 1e-10);
     assert_true(fabs(s.acoustic_ratio - 1.0) < 1e-10);
@@ -63,12 +64,12 @@ static void test_linear_limit(void **unused) {
 static void test_plain_isotropic(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
   const double stress[3] = {-100, -100, -100}, void_ratios[3] = {0.6, 0.75, 0.95};
   for (int k = 0; k < 3; k++) {
-    const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, void_ratios[k]};
-    const scalars m = scalars_of(&material, stress, state.void_ratio);
+    const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = void_ratios[k]}};
+    const scalars m = scalars_of(&material, stress, state.variable[VOID_RATIO]);
     hypofab_stability s;
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
     assert_true(fabs(s.work / (m.f_s * (1.0 - m.f_d * m.f_d / 4.0)) - 1.0) < 1e-10);
@@ -85,19 +86,20 @@ static void test_plain_isotropic(void **unused) {
 static void test_critical_state_is_on_the_bound_surface(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
-  const double sine = sin(material.phi_c * acos(-1.0) / 180.0);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
+  const double sine = sin(material.value[SAND_PHI_C] * acos(-1.0) / 180.0);
   for (int k = 0; k < 2; k++) { /* compression, extension: Matsuoka & Nakai pass through Mohr & Coulomb in both */
     const double minor = -100.0, major = minor * (1.0 + sine) / (1.0 - sine);
-    hypofab_state state = {{minor, k ? major : minor, major, 0, 0, 0}, {0}, 0.0};
+    hypofab_state state = {{minor, k ? major : minor, major, 0, 0, 0}, {[VOID_RATIO] = 0.0}};
     const double trace = state.stress[0] + state.stress[1] + state.stress[2];
-    state.void_ratio = material.e_c0 * exp(-pow(-trace / material.h_s, material.n));
+    state.variable[VOID_RATIO] =
+        material.value[SAND_E_C0] * exp(-pow(-trace / material.value[SAND_H_S], material.value[SAND_N]));
     hypofab_stability s;
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
     assert_true(fabs(s.bound - 1.0) < 1e-10);
-    assert_true(s.work < 0.0); /* Tdot:D = 0 for the D that keeps the stress: the smallest is not above */
-    state.void_ratio *= 0.98;  /* denser: inside */
+    assert_true(s.work < 0.0);          /* Tdot:D = 0 for the D that keeps the stress: the smallest is not above */
+    state.variable[VOID_RATIO] *= 0.98; /* denser: inside */
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
     assert_true(s.bound < 1.0);
   }
@@ -111,11 +113,11 @@ static void test_order_of_the_criteria(void **unused) {
   for (int k = 0; k < 300; k++) {
     hypofab_material material = random_material(&r);
     hypofab_state state = sheared_state(&r, &material);
-    if (k % 2) material.m_R = 0.0;
+    if (k % 2) material.value[SAND_M_R] = 0.0;
     hypofab_stability s;
     assert_int_equal(hypofab_stability_state(&material, &state, &s), HYPOFAB_OK);
     if (s.work > 0.0) assert_true(s.acoustic > 0.0), stable++;
-    if (s.work > 0.0 && material.m_R <= 0.5) assert_true(s.bound < 1.0);
+    if (s.work > 0.0 && material.value[SAND_M_R] <= 0.5) assert_true(s.bound < 1.0);
     band += s.acoustic < 0.0;
   }
   assert_true(stable > 30 && band > 10);
@@ -129,13 +131,13 @@ static void test_objectivity_and_homogeneity(void **unused) {
   for (int k = 0; k < 40; k++) {
     hypofab_material material = random_material(&r);
     hypofab_state state = sheared_state(&r, &material), rotated = state, scaled = state;
-    if (k % 3 == 0) material.m_R = 0.0;
+    if (k % 3 == 0) material.value[SAND_M_R] = 0.0;
     double q[3][3];
     hypofab_stability a, b;
     random_rotation(&r, q);
     tensor_rotate(q, state.stress, rotated.stress);
-    tensor_rotate(q, state.delta, rotated.delta);
-    for (int i = 0; i < 6; i++) rotated.delta[i] *= 1.0 - 1e-15;
+    tensor_rotate(q, state.variable, rotated.variable);
+    for (int i = 0; i < 6; i++) rotated.variable[i] *= 1.0 - 1e-15;
     assert_int_equal(hypofab_stability_state(&material, &state, &a), HYPOFAB_OK);
     assert_int_equal(hypofab_stability_state(&material, &rotated, &b), HYPOFAB_OK);
     const double scale = fabs(a.acoustic / a.acoustic_ratio);
@@ -144,8 +146,8 @@ static void test_objectivity_and_homogeneity(void **unused) {
     assert_true(fabs(a.bound - b.bound) < 1e-10);
     const double factor = 1000.0;
     hypofab_material other = material;
-    other.h_s *= factor;
-    other.p_t *= factor;
+    other.value[SAND_H_S] *= factor;
+    other.value[SAND_P_T] *= factor;
     for (int i = 0; i < 6; i++) scaled.stress[i] *= factor;
     assert_int_equal(hypofab_stability_state(&other, &scaled, &b), HYPOFAB_OK);
     assert_true(fabs(a.work_ratio - b.work_ratio) < 1e-9);

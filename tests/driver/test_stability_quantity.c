@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 
 /* clang-format off */
 #include <setjmp.h>
@@ -18,9 +19,9 @@ static void test_undrained_instability(void **unused) {
   (void)unused;
   for (int with = 0; with < 2; with++) {
     hypofab_material material;
-    assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-    if (!with) material.m_R = 0.0;
-    const hypofab_state state = {{-300, -300, -300, 0, 0, 0}, {0}, 0.95};
+    assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+    if (!with) material.value[SAND_M_R] = 0.0;
+    const hypofab_state state = {{-300, -300, -300, 0, 0, 0}, {[VOID_RATIO] = 0.95}};
     hypofab_step step, pushed;
     memset(&step, 0, sizeof step);
     assert_int_equal(hypofab_step_preset(&step, "undrained_triaxial_compression", 2, 1.0), HYPOFAB_OK);
@@ -37,10 +38,10 @@ static void test_undrained_instability(void **unused) {
     assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, NULL), HYPOFAB_OK);
     int rising = 0, falling = 0;
     for (int i = 1; i + 2 < r.n; i++) {
-      hypofab_state at = {.void_ratio = r.rows[i].value[HYPOFAB_VOID_RATIO]};
+      hypofab_state at = {.variable[VOID_RATIO] = r.rows[i].value[HYPOFAB_VOID_RATIO]};
       for (int c = 0; c < 6; c++) {
         at.stress[c] = r.rows[i].value[HYPOFAB_SIG_XX + c];
-        at.delta[c] = r.rows[i].value[HYPOFAB_DELTA_XX + c];
+        at.variable[c] = r.rows[i].value[HYPOFAB_DELTA_XX + c];
       }
       hypofab_control_stability path, under_stress;
       hypofab_stability s;
@@ -76,8 +77,8 @@ static void test_determinant_of_the_control(void **unused) {
     hypofab_state state;
     hypofab_step steps[2], push, strain;
     paper_test(2, &material, &state, steps);
-    memset(state.delta, 0, sizeof state.delta);
-    if (!with) material.m_R = 0.0;
+    memset(state.variable, 0, 6 * sizeof *state.variable);
+    if (!with) material.value[SAND_M_R] = 0.0;
     const hypofab_control all_stress[6] = {1, 1, 1, 1, 1, 1}, all_strain[6] = {0};
     const double rate[6] = {0, -1.0, 0, 0, 0, 0};
     memset(&push, 0, sizeof push);
@@ -110,9 +111,9 @@ static void test_determinant_of_the_control(void **unused) {
 static void test_quantities_of_a_test(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  material.m_R = 0.0;
-  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.65};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  material.value[SAND_M_R] = 0.0;
+  const hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.65}};
   const hypofab_test_options options = {.stability = 1};
   hypofab_step step;
   recorder r = {0};
@@ -123,7 +124,7 @@ static void test_quantities_of_a_test(void **unused) {
   assert_int_equal(hypofab_test_run(&material, &state, &step, 1, &options, recorder_take, &r, NULL), HYPOFAB_OK);
   for (int i = 0; i < r.n; i++) {
     const double *value = r.rows[i].value;
-    hypofab_state at = {.void_ratio = value[HYPOFAB_VOID_RATIO]};
+    hypofab_state at = {.variable[VOID_RATIO] = value[HYPOFAB_VOID_RATIO]};
     for (int c = 0; c < 6; c++) at.stress[c] = value[HYPOFAB_SIG_XX + c];
     hypofab_stability s;
     hypofab_control_stability path;
@@ -144,7 +145,7 @@ static void test_quantities_of_a_test(void **unused) {
   step.rows = 0;
   hypofab_test_outcome first, peak;
   assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, &first), HYPOFAB_OK);
-  for (int i = HYPOFAB_FIRST_STABILITY; i < HYPOFAB_N_QUANTITIES; i++) assert_true(isnan(r.rows[0].value[i]));
+  for (int i = HYPOFAB_FIRST_STABILITY; i < HYPOFAB_FIRST_NUMBER; i++) assert_true(isnan(r.rows[0].value[i]));
   recorder_clear(&r);
   hypofab_stability s;
   assert_int_equal(hypofab_stability_state(&material, &first.state, &s), HYPOFAB_OK);

@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "recorder.h"
+#include "support/sand.h"
 #include "support/tensors.h"
 #include "umat/umat_call.h"
 
@@ -15,9 +16,9 @@
 /* clang-format on */
 
 static void sand(hypofab_material *material, hypofab_state *state) {
-  assert_int_equal(hypofab_sand("karlsruhe_fine", material), HYPOFAB_OK);
-  *state = (hypofab_state){{-200, -200, -200, 0, 0, 0}, {0}, 0.85};
-  for (int k = 0; k < 3; k++) state->delta[k] = -material->R * (1.0 - 1e-15) / sqrt(3.0);
+  assert_int_equal(hypofab_material_built_in("karlsruhe_fine", material), HYPOFAB_OK);
+  *state = (hypofab_state){{-200, -200, -200, 0, 0, 0}, {[VOID_RATIO] = 0.85}};
+  for (int k = 0; k < 3; k++) state->variable[k] = -material->value[SAND_R] * (1.0 - 1e-15) / sqrt(3.0);
 }
 
 /* The UMAT with K_w, along the strains of the driver: its STRESS is our total stress, STATEV(8) our pore pressure. */
@@ -36,17 +37,17 @@ static void test_water_is_that_of_the_umat(void **unused) {
     step.until = (hypofab_mark){HYPOFAB_TIME, 10.0};
     step.rows = 400;
     assert_int_equal(hypofab_test_run(&material, &state, &step, 1, NULL, recorder_take, &r, NULL), HYPOFAB_OK);
-    material.K_w = K_w;
+    material.value[SAND_K_W] = K_w;
     double stress[6], statev[13] = {0}, tangent[36];
     memcpy(stress, state.stress, sizeof stress);
-    for (int i = 0; i < 3; i++) statev[i] = state.delta[i];
-    statev[6] = state.void_ratio;
+    for (int i = 0; i < 3; i++) statev[i] = state.variable[i];
+    statev[6] = state.variable[VOID_RATIO];
     for (int i = 1; i < r.n; i++) {
       const double *v = r.rows[i].value, *before = r.rows[i - 1].value;
       double increment[6], pnewdt = 1.0;
       for (int j = 0; j < 6; j++)
         increment[j] = (j < 3 ? 1.0 : 2.0) * (v[HYPOFAB_EPS_XX + j] - before[HYPOFAB_EPS_XX + j]);
-      umat_call(6, 13, 16, stress, statev, tangent, increment, (const double *)&material, NULL, &pnewdt);
+      umat_call(6, 13, 16, stress, statev, tangent, increment, material.value, NULL, &pnewdt);
       assert_true(pnewdt >= 1.0);
       for (int j = 0; j < 3; j++) assert_true(fabs(stress[j] - v[HYPOFAB_TOT_XX + j]) < 1e-3 * 200.0);
       assert_true(fabs(statev[7] - v[HYPOFAB_PORE_PRESSURE]) < 1e-9 * 200.0);

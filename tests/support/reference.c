@@ -1,4 +1,5 @@
 #include "support/reference.h"
+#include "support/sand.h"
 
 /* clang-format off */
 #include <setjmp.h>
@@ -23,16 +24,15 @@ void reference_tensor(const json_t *array, double t[6]) {
 hypofab_material reference_material(const json_t *reference, const json_t *one_case) {
   const char *name = json_string_value(json_object_get(one_case, "material"));
   const json_t *values = json_object_get(json_object_get(reference, "materials"), name);
-  double props[HYPOFAB_N_PARAMETERS] = {0};
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) {
+  double props[SAND_N_PARAMETERS] = {0};
+  for (int i = 0; i < SAND_N_PARAMETERS; i++) {
     hypofab_parameter_info info;
-    assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
     const json_t *value = json_object_get(values, info.name);
     if (value) props[i] = json_number_value(value);
   }
-  hypofab_material material;
-  memcpy(&material, props, sizeof material);
-  if (json_is_false(json_object_get(one_case, "intergranular"))) material.m_R = 0.0;
+  hypofab_material material = sand_from_props(props);
+  if (json_is_false(json_object_get(one_case, "intergranular"))) material.value[SAND_M_R] = 0.0;
   assert_int_equal(hypofab_material_check(&material), HYPOFAB_OK);
   return material;
 }
@@ -40,7 +40,7 @@ hypofab_material reference_material(const json_t *reference, const json_t *one_c
 hypofab_state reference_state(const json_t *one_case) {
   hypofab_state state;
   reference_tensor(json_object_get(one_case, "stress"), state.stress);
-  reference_tensor(json_object_get(one_case, "intergranular_strain"), state.delta);
-  state.void_ratio = json_number_value(json_object_get(one_case, "void_ratio"));
+  reference_tensor(json_object_get(one_case, "intergranular_strain"), state.variable);
+  state.variable[VOID_RATIO] = json_number_value(json_object_get(one_case, "void_ratio"));
   return state;
 }

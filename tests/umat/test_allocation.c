@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "umat_call.h"
 
@@ -128,10 +129,10 @@ static void test_umat(void **unused) {
       const hypofab_material material = random_material(&r);
       const hypofab_state state = random_state(&r, &material);
       double props[16], stress[6], statev[13] = {0}, ddsdde[36], strain[6], pnewdt = 1.0;
-      memcpy(props, &material, sizeof props);
+      memcpy(props, material.value, sizeof props);
       memcpy(stress, state.stress, sizeof stress);
-      for (int k = 0; k < 6; k++) statev[k] = (k < 3 ? 1.0 : 2.0) * state.delta[k];
-      statev[6] = state.void_ratio;
+      for (int k = 0; k < 6; k++) statev[k] = (k < 3 ? 1.0 : 2.0) * state.variable[k];
+      statev[6] = state.variable[VOID_RATIO];
       random_increment(&r, i % 5 ? 1e-4 : 1e-2, strain);
       const int ntens[] = {6, 4, 3};
       const unsigned long before = allocations;
@@ -162,14 +163,14 @@ static void test_vumat(void **unused) {
         for (int j = 0; j < 6; j++) {
           stress[j * POINTS + k] = state.stress[j];
           strain[j * POINTS + k] = increment[j];
-          state_old[j * POINTS + k] = (j < 3 ? 1.0 : 2.0) * state.delta[j];
+          state_old[j * POINTS + k] = (j < 3 ? 1.0 : 2.0) * state.variable[j];
         }
-        state_old[6 * POINTS + k] = state.void_ratio;
+        state_old[6 * POINTS + k] = state.variable[VOID_RATIO];
       }
       const unsigned long before = allocations;
-      vumat_(&nblock, &ndir, &nshr, &nstatev, &none, &nprops, &none, NULL, NULL, NULL, cmname, NULL, NULL, &material,
-             zero, strain, NULL, NULL, NULL, NULL, NULL, stress, state_old, zero, zero, NULL, NULL, NULL, NULL,
-             new_stress, new_state, energy, energy);
+      vumat_(&nblock, &ndir, &nshr, &nstatev, &none, &nprops, &none, NULL, NULL, NULL, cmname, NULL, NULL,
+             material.value, zero, strain, NULL, NULL, NULL, NULL, NULL, stress, state_old, zero, zero, NULL, NULL,
+             NULL, NULL, new_stress, new_state, energy, energy);
       if (round) counted += allocations - before;
     }
   }

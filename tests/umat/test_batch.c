@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 #include "umat/batch/batch.h"
@@ -37,12 +38,12 @@ typedef struct cloud {
 } cloud;
 
 static hypofab_points points_of(cloud *c) {
-  return (hypofab_points){(size_t)c->n, STRIDE, c->stress, c->delta, c->void_ratio, c->strain, c->status};
+  return (hypofab_points){(size_t)c->n, STRIDE, c->stress, {c->delta, c->void_ratio}, c->strain, c->status};
 }
 
 static hypofab_state state_of(const cloud *c, int i) {
-  hypofab_state state = {.void_ratio = c->void_ratio[i]};
-  for (int k = 0; k < 6; k++) state.stress[k] = c->stress[k * STRIDE + i], state.delta[k] = c->delta[k * STRIDE + i];
+  hypofab_state state = {.variable[VOID_RATIO] = c->void_ratio[i]};
+  for (int k = 0; k < 6; k++) state.stress[k] = c->stress[k * STRIDE + i], state.variable[k] = c->delta[k * STRIDE + i];
   return state;
 }
 
@@ -53,25 +54,25 @@ static void strain_of(const cloud *c, int i, double strain[6]) {
 static void put(cloud *c, int i, const hypofab_state *state, const double strain[6]) {
   for (int k = 0; k < 6; k++) {
     c->stress[k * STRIDE + i] = state->stress[k];
-    c->delta[k * STRIDE + i] = state->delta[k];
+    c->delta[k * STRIDE + i] = state->variable[k];
     c->strain[k * STRIDE + i] = strain[k];
   }
-  c->void_ratio[i] = state->void_ratio;
+  c->void_ratio[i] = state->variable[VOID_RATIO];
 }
 
 /* Directions of every kind: random, along delta, against it, normal to it. */
 static void random_strain(random_stream *r, const hypofab_state *state, double size, double strain[6]) {
-  const double kind = random_uniform(r, 0.0, 1.0), length = tensor_norm(state->delta);
+  const double kind = random_uniform(r, 0.0, 1.0), length = tensor_norm(state->variable);
   random_direction(r, strain);
   if (kind < 0.3 && length > 0.0) {
-    const double part = tensor_dot(strain, state->delta) / (length * length);
+    const double part = tensor_dot(strain, state->variable) / (length * length);
     for (int k = 0; k < 6; k++) {
       if (kind < 0.1)
-        strain[k] = state->delta[k] / length;
+        strain[k] = state->variable[k] / length;
       else if (kind < 0.2)
-        strain[k] = -state->delta[k] / length;
+        strain[k] = -state->variable[k] / length;
       else
-        strain[k] -= part * state->delta[k];
+        strain[k] -= part * state->variable[k];
     }
   }
   for (int k = 0; k < 6; k++) strain[k] *= size;
@@ -96,9 +97,9 @@ static cloud *random_cloud(random_stream *r, int n, double lower, double upper, 
       const int kind = (int)random_uniform(r, 0.0, 9.0), k = (int)random_uniform(r, 0.0, 6.0);
       if (kind == 0) strain[k] = NAN;
       if (kind == 1) state.stress[k] = INFINITY;
-      if (kind == 2) state.delta[k] = NAN;
-      if (kind == 3) state.void_ratio = -0.5;
-      if (kind == 4) state.stress[k % 3] = 10.0 * (1.0 + c->material.p_t);
+      if (kind == 2) state.variable[k] = NAN;
+      if (kind == 3) state.variable[VOID_RATIO] = -0.5;
+      if (kind == 4) state.stress[k % 3] = 10.0 * (1.0 + c->material.value[SAND_P_T]);
       if (kind == 5) strain[k] = 3.0;
       if (kind == 6) memset(strain, 0, sizeof strain);
       if (kind == 7) state.stress[k] = 0.0;
@@ -120,7 +121,7 @@ static cloud *copy(const cloud *c) {
 static int n_instruction_sets(void) {
   hypofab_batch_report report;
   hypofab_material material;
-  hypofab_sand("paper000", &material);
+  hypofab_material_built_in("paper000", &material);
   assert_int_equal(hypofab_update_batch(&material, NULL, &(hypofab_points){0}, 1, &report), HYPOFAB_OK);
   return !strcmp(report.instructions, "avx512") ? 3 : !strcmp(report.instructions, "avx2") ? 2 : 1;
 }
@@ -139,9 +140,9 @@ static double difference_from_scalar(const cloud *before, const cloud *after, in
     return 0.0;
   }
   double worst = tensor_distance(state.stress, expected.stress) / tensor_norm(expected.stress);
-  if (before->material.m_R > 0.5)
-    worst = fmax(worst, tensor_distance(state.delta, expected.delta) / before->material.R);
-  return fmax(worst, fabs(state.void_ratio / expected.void_ratio - 1.0));
+  if (before->material.value[SAND_M_R] > 0.5)
+    worst = fmax(worst, tensor_distance(state.variable, expected.variable) / before->material.value[SAND_R]);
+  return fmax(worst, fabs(state.variable[VOID_RATIO] / expected.variable[VOID_RATIO] - 1.0));
 }
 
 static void test_equal_to_scalar(void **unused) {
@@ -159,7 +160,7 @@ static void test_equal_to_scalar(void **unused) {
       cloud *after = copy(before);
       int64_t scalar = 0;
       int evaluations[STRIDE];
-      hypofab_update_points(&after->material, &tolerance, &max_evaluations, 0, instructions, after->n, STRIDE,
+      hypofab_update_points(after->material.value, &tolerance, &max_evaluations, 0, instructions, after->n, STRIDE,
                             after->stress, after->delta, after->void_ratio, after->strain, after->status, evaluations,
                             &scalar);
       for (int i = 0; i < after->n; i++) {
@@ -222,8 +223,12 @@ static void test_a_point_depends_on_itself_alone(void **unused) {
     assert_int_equal(hypofab_update_batch(&turned->material, NULL, &points, 0, NULL) != 0, status != 0);
     for (int i = 0; i < once->n; i++) assert_same(once, i, turned, once->n - 1 - i);
     for (int i = 0; i < 40; i++) { /* a batch of one */
-      points = (hypofab_points){
-          1, STRIDE, alone->stress + i, alone->delta + i, alone->void_ratio + i, alone->strain + i, alone->status + i};
+      points = (hypofab_points){1,
+                                STRIDE,
+                                alone->stress + i,
+                                {alone->delta + i, alone->void_ratio + i},
+                                alone->strain + i,
+                                alone->status + i};
       assert_int_equal(hypofab_update_batch(&alone->material, NULL, &points, 3, NULL), once->status[i]);
       assert_same(once, i, alone, i);
     }
@@ -261,12 +266,12 @@ static void test_plain_model_without_delta(void **unused) {
   (void)unused;
   random_stream r = {34};
   cloud *with = random_cloud(&r, 77, 1e-5, 1e-3, 0.0);
-  with->material.m_R = 0.0;
+  with->material.value[SAND_M_R] = 0.0;
   cloud *without = copy(with), *before = copy(with);
   hypofab_points points = points_of(with);
   hypofab_update_batch(&with->material, NULL, &points, 0, NULL);
   points = points_of(without);
-  points.delta = NULL;
+  points.variable[0] = NULL;
   points.status = NULL;
   hypofab_batch_report report;
   hypofab_update_batch(&without->material, NULL, &points, 0, &report);
@@ -293,7 +298,7 @@ static void test_wrong_arguments_are_refused(void **unused) {
   (void)unused;
   random_stream r = {35};
   cloud *c = random_cloud(&r, 50, 1e-5, 1e-4, 0.0), *before;
-  hypofab_sand("paper000", &c->material);
+  hypofab_material_built_in("paper000", &c->material);
   before = copy(c);
   hypofab_points points = points_of(c);
   assert_refused(&points, &c->material, -1, HYPOFAB_BAD_ARGUMENT, "threads");
@@ -301,15 +306,15 @@ static void test_wrong_arguments_are_refused(void **unused) {
   assert_refused(&points, &c->material, 1, HYPOFAB_BAD_ARGUMENT, "stride");
   points = points_of(c), points.stress = NULL;
   assert_refused(&points, &c->material, 1, HYPOFAB_BAD_ARGUMENT, "stress");
-  points = points_of(c), points.delta = NULL;
+  points = points_of(c), points.variable[0] = NULL;
   assert_refused(&points, &c->material, 1, HYPOFAB_BAD_ARGUMENT, "delta");
-  points = points_of(c), points.void_ratio = NULL;
+  points = points_of(c), points.variable[1] = NULL;
   assert_refused(&points, &c->material, 1, HYPOFAB_BAD_ARGUMENT, "void_ratio");
   points = points_of(c), points.strain = NULL;
   assert_refused(&points, &c->material, 1, HYPOFAB_BAD_ARGUMENT, "strain");
   points = points_of(c);
   hypofab_material bad = c->material;
-  bad.h_s = -1.0;
+  bad.value[SAND_H_S] = -1.0;
   assert_refused(&points, &bad, 1, HYPOFAB_BAD_MATERIAL, "h_s");
   assert_memory_equal(c, before, sizeof *c);
   free(before);

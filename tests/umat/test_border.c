@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 #include "umat_call.h"
@@ -52,10 +53,10 @@ static int go(const hypofab_material *material, hypofab_state *state, const doub
 
 /* A sand with a p_t, plain or not, and a state of 100 kPa. */
 static void start(int sand, int plain, double p_t, hypofab_material *material, hypofab_state *state) {
-  assert_int_equal(hypofab_sand(sands[sand], material), HYPOFAB_OK);
-  if (plain) material->m_R = 0.0;
-  material->p_t = p_t;
-  *state = (hypofab_state){{-100, -100, -100, 0, 0, 0}, {0}, 0.8 * material->e_c0};
+  assert_int_equal(hypofab_material_built_in(sands[sand], material), HYPOFAB_OK);
+  if (plain) material->value[SAND_M_R] = 0.0;
+  material->value[SAND_P_T] = p_t;
+  *state = (hypofab_state){{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.8 * material->value[SAND_E_C0]}};
 }
 
 /* 10 % of extension, in many increments or in one, leave next to no tension; and the way back leads to compression. */
@@ -70,8 +71,8 @@ static void test_extension_and_back(void **unused) {
     for (int plain = 0; plain < 2; plain++) {
       start(i / 4 / N_DIRECTIONS, plain, p_t, &material, &one);
       assert_true(go(&material, &one, direction, 0.1 / increments, increments));
-      for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(one.stress[k] - p_t) / material.h_s);
-      for (int k = 3; k < 6; k++) largest = fmax(largest, fabs(one.stress[k]) / material.h_s);
+      for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(one.stress[k] - p_t) / material.value[SAND_H_S]);
+      for (int k = 3; k < 6; k++) largest = fmax(largest, fabs(one.stress[k]) / material.value[SAND_H_S]);
       go(&material, &one, direction, -0.12 / increments, increments);
       assert_true(one.stress[0] + one.stress[1] + one.stress[2] < -1.0);
       assert_int_equal(hypofab_state_check(&material, &one), HYPOFAB_OK);
@@ -111,7 +112,7 @@ static void test_integrated_within_tolerance(void **unused) {
     go(&material, &once, direction, 5e-3, 1);
     go(&material, &often, direction, 5e-5, 100);
     assert_int_equal(hypofab_update(&material, &reference, &tightly, strain, NULL, NULL), HYPOFAB_OK);
-    const double scale = fmax(tensor_norm(tightly.stress), 1e-6 * material.h_s);
+    const double scale = fmax(tensor_norm(tightly.stress), 1e-6 * material.value[SAND_H_S]);
     assert_true(tensor_distance(once.stress, tightly.stress) < 1e-5 * scale);
     assert_true(tensor_distance(often.stress, tightly.stress) < 3e-5 * scale);
   }
@@ -164,14 +165,14 @@ static void test_objective_and_free_of_units(void **unused) {
     for (int k = 0; k < 6; k++) strain[k] *= 1e-3;
     turned = large = state;
     tensor_rotate(q, state.stress, turned.stress);
-    tensor_rotate(q, state.delta, turned.delta);
+    tensor_rotate(q, state.variable, turned.variable);
     tensor_rotate(q, strain, turned_strain);
-    scaled.h_s *= 1024.0, scaled.p_t *= 1024.0;
+    scaled.value[SAND_H_S] *= 1024.0, scaled.value[SAND_P_T] *= 1024.0;
     for (int k = 0; k < 6; k++) large.stress[k] *= 1024.0;
     go(&material, &state, strain, 1.0, 1);
     go(&material, &turned, turned_strain, 1.0, 1);
     go(&scaled, &large, strain, 1.0, 1);
-    const double scale = fmax(tensor_norm(state.stress), 1e-6 * material.h_s);
+    const double scale = fmax(tensor_norm(state.stress), 1e-6 * material.value[SAND_H_S]);
     tensor_rotate(q, state.stress, expected);
     assert_true(tensor_distance(turned.stress, expected) < 1e-6 * scale);
     for (int k = 0; k < 6; k++) large.stress[k] /= 1024.0;
@@ -216,11 +217,12 @@ static void test_tangent(void **unused) {
     }
     compared++;
     /* Errors of stress are relative to a size (P_s/2): a stiffness of 1e-5 h_s is not known to 1e-5. */
-    if (error > 1e-5 * size + 1e-7 * material.h_s) {
+    if (error > 1e-5 * size + 1e-7 * material.value[SAND_H_S]) {
       bad++;
       print_message("state %d: error %.2g of %.2g h_s, |strain| %.2g, T/h_s %.2g %.2g %.2g, m_R %g\n", i, error / size,
-                    size / material.h_s, length, state.stress[0] / material.h_s, state.stress[1] / material.h_s,
-                    state.stress[2] / material.h_s, material.m_R);
+                    size / material.value[SAND_H_S], length, state.stress[0] / material.value[SAND_H_S],
+                    state.stress[1] / material.value[SAND_H_S], state.stress[2] / material.value[SAND_H_S],
+                    material.value[SAND_M_R]);
     }
   }
   print_message("%d of %d tangents are off\n", bad, compared);
@@ -249,12 +251,12 @@ static void test_batch(void **unused) {
       for (int k = 0; k < 6; k++) {
         strain[k * N + i] = direction[k] *= size;
         stress[k * N + i] = expected[i].stress[k];
-        delta[k * N + i] = expected[i].delta[k];
+        delta[k * N + i] = expected[i].variable[k];
       }
-      void_ratio[i] = expected[i].void_ratio;
+      void_ratio[i] = expected[i].variable[VOID_RATIO];
       assert_int_equal(hypofab_update(&material, &as_host, &expected[i], direction, NULL, NULL), HYPOFAB_OK);
     }
-    const hypofab_points points = {N, N, stress, delta, void_ratio, strain, status};
+    const hypofab_points points = {N, N, stress, {delta, void_ratio}, strain, status};
     hypofab_batch_report report;
     assert_int_equal(hypofab_update_batch(&material, &as_host, &points, 1, &report), HYPOFAB_OK);
     assert_true(report.scalar > 0 && report.scalar < N);
@@ -273,14 +275,14 @@ static void test_umat_goes_on(void **unused) {
   static const double stresses[][6] = {
       {0}, {-1e-300, 0, 0, 0, 0, 0}, {5, 5, 5, 0, 0, 0}, {-100, -100, 3, 0, 0, 0}, {-1e-9, -2e-9, -1e-9, 0, 0, 0}};
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  material.e_0 = 0.7;
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  material.value[SAND_E_0] = 0.7;
   for (size_t i = 0; i < sizeof stresses / sizeof *stresses; i++)
     for (int j = 0; j < 3; j++)
       for (int sign = -1; sign <= 1; sign += 2) {
         const int n = ntens[j], direct = n == 3 ? 2 : 3;
         double stress[6], statev[13] = {0}, ddsdde[36], dstran[6] = {0}, props[16], pnewdt = 1.0;
-        memcpy(props, &material, sizeof props);
+        memcpy(props, material.value, sizeof props);
         memcpy(stress, stresses[i], sizeof stress);
         for (int k = 0; k < direct; k++) dstran[k] = sign * 1e-4;
         if (n == 3) stress[2] = 0.0;

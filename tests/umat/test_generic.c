@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -78,13 +79,13 @@ static void fill(point *p, int n, const hypofab_material *material, const hypofa
     for (int k = 0; k < n; k++) {
       p->strain[side][k] = weight(k) * (0.01 + (side ? strain[k] : 0.0));
       p->stress[side][k] = weight(k) * state->stress[k];
-      p->variables[side][k] = weight(k) * state->delta[k];
+      p->variables[side][k] = weight(k) * state->variable[k];
     }
-    p->variables[side][n] = state->void_ratio;
+    p->variables[side][n] = state->variable[VOID_RATIO];
   }
   p->rdt = 10.0;
   p->speed = -1.0;
-  memcpy(p->properties, material, sizeof p->properties);
+  memcpy(p->properties, material->value, sizeof p->properties);
   p->data = (behaviour_data){p->message, 1.0, p->K, &p->rdt, &p->speed, p->data.s0, p->data.s1};
 }
 
@@ -97,7 +98,7 @@ static void draw(random_stream *r, int n, hypofab_material *material, hypofab_st
   const double size = pow(10.0, random_uniform(r, -6.0, -3.5));
   for (int k = 0; k < 6; k++) {
     strain[k] = k < n ? size * strain[k] : 0.0;
-    if (k >= n) state->stress[k] = state->delta[k] = 0.0;
+    if (k >= n) state->stress[k] = state->variable[k] = 0.0;
   }
 }
 
@@ -105,14 +106,16 @@ static void check_state(const point *p, int n, const hypofab_material *material,
   const double *v = p->variables[1], *scalars = v + n, size = tensor_norm(state->stress);
   for (int k = 0; k < n; k++) {
     assert_true(fabs(p->stress[1][k] - weight(k) * state->stress[k]) <= 1e-12 * size);
-    if (material->m_R > 0.5) assert_true(fabs(v[k] - weight(k) * state->delta[k]) <= 1e-12 * material->R);
+    if (material->value[SAND_M_R] > 0.5)
+      assert_true(fabs(v[k] - weight(k) * state->variable[k]) <= 1e-12 * material->value[SAND_R]);
   }
-  assert_true(fabs(scalars[0] - state->void_ratio) <= 1e-12);
+  assert_true(fabs(scalars[0] - state->variable[VOID_RATIO]) <= 1e-12);
   assert_true(scalars[1] == 0.0); /* pore pressure */
   assert_true(fabs(scalars[2] + (state->stress[0] + state->stress[1] + state->stress[2]) / 3.0) <= 1e-12 * size);
   assert_true(scalars[3] >= 1.0);
   assert_true(fabs(scalars[4] - hypofab_friction_angle(state->stress)) <= 1e-6);
-  if (material->m_R > 0.5) assert_true(fabs(scalars[5] - tensor_norm(state->delta) / material->R) <= 1e-12);
+  if (material->value[SAND_M_R] > 0.5)
+    assert_true(fabs(scalars[5] - tensor_norm(state->variable) / material->value[SAND_R]) <= 1e-12);
   assert_true(scalars[6] != 0.0);
 }
 
@@ -260,8 +263,8 @@ static void test_speed_of_sound(void **unused) {
     assert_true(p.rdt == 10.0);
     assert_true(p.speed >= sqrt(stiffest_wave(&r, &material, &state) / p.density));
   }
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-  state = (hypofab_state){{-100, -150, -80, 20, -10, 5}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+  state = (hypofab_state){{-100, -150, -80, 20, -10, 5}, {[VOID_RATIO] = 0.7}};
   const double fastest = sqrt(stiffest_wave(&r, &material, &state) / 1.8);
 
   /* Prediction with the speed of sound; and without a density there is no answer. */
@@ -294,8 +297,8 @@ static void test_rejection(void **unused) {
       {0, 1, 'v', -INFINITY, "finite"},
   };
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  const hypofab_state state = {{-100, -120, -90, 0, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  const hypofab_state state = {{-100, -120, -90, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   const double strain[6] = {-1e-4, 2e-5, 0, 1e-5, 0, 0};
   for (int h = 0; h < N_HYPOTHESES; h++) {
     const int n = hypotheses[h].components;
@@ -334,17 +337,17 @@ static void test_pore_water_and_initial_void_ratio(void **unused) {
   (void)unused;
   behaviour *integrate = behaviour_of("PlaneStrain");
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  hypofab_state state = {{-100, -120, -90, 5, 0, 0}, {0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  hypofab_state state = {{-100, -120, -90, 5, 0, 0}, {[VOID_RATIO] = 0.7}};
   const double strain[6] = {-1e-4, -3e-4, 5e-5, 1e-4, 0, 0}, u = 30.0 + 1e5 * 3.5e-4;
   point dry, wet;
   fill(&dry, 4, &material, &state, strain);
   dry.K[0] = 4.0;
   assert_int_equal(integrate(&dry.data), 1);
-  material.K_w = 1e5;
-  material.e_0 = 0.7;
+  material.value[SAND_K_W] = 1e5;
+  material.value[SAND_E_0] = 0.7;
   for (int k = 0; k < 3; k++) state.stress[k] -= 30.0;
-  state.void_ratio = 0.0;
+  state.variable[VOID_RATIO] = 0.0;
   fill(&wet, 4, &material, &state, strain);
   wet.variables[0][5] = 30.0;
   wet.K[0] = 4.0;
@@ -397,7 +400,7 @@ static void test_symbols(void **unused) {
   names = symbol("MaterialProperties");
   for (int i = 0; i < 16; i++) {
     hypofab_parameter_info info;
-    assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
     assert_string_equal(names[i], info.name);
   }
   const int *types = symbol("InternalStateVariablesTypes");

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 
 /* clang-format off */
 #include <setjmp.h>
@@ -13,27 +14,27 @@
 
 static void test_names_are_in_the_order_of_props(void **unused) {
   (void)unused;
-  static const char *const names[HYPOFAB_N_PARAMETERS] = {"phi_c", "p_t", "h_s", "n", "e_d0",   "e_c0", "e_i0", "alpha",
-                                                          "beta",  "m_R", "m_T", "R", "beta_r", "chi",  "K_w",  "e_0"};
+  static const char *const names[SAND_N_PARAMETERS] = {"phi_c", "p_t", "h_s", "n", "e_d0",   "e_c0", "e_i0", "alpha",
+                                                       "beta",  "m_R", "m_T", "R", "beta_r", "chi",  "K_w",  "e_0"};
   hypofab_parameter_info info;
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) {
-    assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);
+  for (int i = 0; i < SAND_N_PARAMETERS; i++) {
+    assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
     assert_string_equal(info.name, names[i]);
     assert_true(info.lower < info.upper && strlen(info.description) > 5);
   }
-  assert_int_equal(hypofab_parameter_describe(-1, &info), HYPOFAB_BAD_ARGUMENT);
-  assert_int_equal(hypofab_parameter_describe(16, &info), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), -1, &info), HYPOFAB_BAD_ARGUMENT);
+  assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), 16, &info), HYPOFAB_BAD_ARGUMENT);
   assert_string_equal(hypofab_last_message(), "parameter number 16 does not exist, expected 0 to 15");
 }
 
 static void test_every_sand_is_admissible_and_has_a_source(void **unused) {
   (void)unused;
-  assert_true(hypofab_sand_count() >= 5);
-  for (int i = 0; i < hypofab_sand_count(); i++) {
-    hypofab_sand_info info;
+  assert_true(hypofab_model_set_count(hypofab_model_find("sand")) >= 5);
+  for (int i = 0; i < hypofab_model_set_count(hypofab_model_find("sand")); i++) {
+    hypofab_set_info info;
     hypofab_material material;
-    assert_int_equal(hypofab_sand_describe(i, &info), HYPOFAB_OK);
-    assert_int_equal(hypofab_sand(info.name, &material), HYPOFAB_OK);
+    assert_int_equal(hypofab_model_set(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_material_built_in(info.name, &material), HYPOFAB_OK);
     assert_int_equal(hypofab_material_check(&material), HYPOFAB_OK);
     assert_true(strlen(info.source) > 5 && strlen(info.description) > 5);
   }
@@ -43,18 +44,18 @@ static void test_every_sand_is_admissible_and_has_a_source(void **unused) {
 static void test_published_figures(void **unused) {
   (void)unused;
   hypofab_material m;
-  assert_int_equal(hypofab_sand("paper000", &m), HYPOFAB_OK); /* paper 000, Table 2 */
-  const hypofab_material paper = {30, 0, 230e3, 0.5, 0.579, 0.865, 0.995, 0.13, 2.4, 5, 3, 1e-4, 0.3, 1, 0, 0};
-  assert_memory_equal(&m, &paper, sizeof m);
-  assert_int_equal(hypofab_sand("hochstetten", &m), HYPOFAB_OK);
-  const hypofab_material hochstetten = {33, 0, 1e6, 0.25, 0.55, 0.95, 1.05, 0.25, 1.5, 5, 2, 1e-4, 0.5, 6, 0, 0};
-  assert_memory_equal(&m, &hochstetten, sizeof m);
+  assert_int_equal(hypofab_material_built_in("paper000", &m), HYPOFAB_OK); /* paper 000, Table 2 */
+  const double paper[] = {30, 0, 230e3, 0.5, 0.579, 0.865, 0.995, 0.13, 2.4, 5, 3, 1e-4, 0.3, 1, 0, 0};
+  assert_memory_equal(m.value, paper, sizeof paper);
+  assert_int_equal(hypofab_material_built_in("hochstetten", &m), HYPOFAB_OK);
+  const double hochstetten[] = {33, 0, 1e6, 0.25, 0.55, 0.95, 1.05, 0.25, 1.5, 5, 2, 1e-4, 0.5, 6, 0, 0};
+  assert_memory_equal(m.value, hochstetten, sizeof hochstetten);
 }
 
 static void test_unknown_sand_lists_the_known(void **unused) {
   (void)unused;
   hypofab_material m = {0}, before = m;
-  assert_int_equal(hypofab_sand("beach", &m), HYPOFAB_BAD_MATERIAL);
+  assert_int_equal(hypofab_material_built_in("beach", &m), HYPOFAB_BAD_MATERIAL);
   assert_memory_equal(&m, &before, sizeof m);
   assert_non_null(strstr(hypofab_last_message(), "\"beach\""));
   assert_non_null(strstr(hypofab_last_message(), "hochstetten"));
@@ -63,56 +64,56 @@ static void test_unknown_sand_lists_the_known(void **unused) {
 static void test_refusals_name_parameter_value_and_expectation(void **unused) {
   (void)unused;
   hypofab_material good;
-  assert_int_equal(hypofab_sand("paper000", &good), HYPOFAB_OK);
-  double props[HYPOFAB_N_PARAMETERS];
-  for (int i = 0; i < HYPOFAB_N_PARAMETERS; i++) {
+  assert_int_equal(hypofab_material_built_in("paper000", &good), HYPOFAB_OK);
+  double props[SAND_N_PARAMETERS];
+  for (int i = 0; i < SAND_N_PARAMETERS; i++) {
     hypofab_parameter_info info;
-    assert_int_equal(hypofab_parameter_describe(i, &info), HYPOFAB_OK);
+    assert_int_equal(hypofab_model_parameter(hypofab_model_find("sand"), i, &info), HYPOFAB_OK);
     const double wrong[4] = {info.lower - 1.0, info.upper * 2.0, NAN, INFINITY};
     for (int k = 0; k < 4; k++) {
-      memcpy(props, &good, sizeof props);
+      memcpy(props, good.value, sizeof props);
       props[i] = wrong[k];
-      hypofab_material m;
-      memcpy(&m, props, sizeof m);
+      const hypofab_material m = sand_from_props(props);
       assert_int_equal(hypofab_material_check(&m), HYPOFAB_BAD_MATERIAL);
       assert_non_null(strstr(hypofab_last_message(), info.name));
       assert_non_null(strstr(hypofab_last_message(), "expected"));
     }
   }
   hypofab_material m = good;
-  m.e_d0 = 0.9;
+  m.value[SAND_E_D0] = 0.9;
   assert_int_equal(hypofab_material_check(&m), HYPOFAB_BAD_MATERIAL);
   assert_non_null(strstr(hypofab_last_message(), "e_d0 < e_c0"));
   m = good;
-  m.alpha = 4.9, m.e_i0 = 2.0; /* would make the stiffness negative */
+  m.value[SAND_ALPHA] = 4.9, m.value[SAND_E_I0] = 2.0; /* would make the stiffness negative */
   assert_int_equal(hypofab_material_check(&m), HYPOFAB_BAD_MATERIAL);
   assert_non_null(strstr(hypofab_last_message(), "stiffness would be negative"));
   /* Without intergranular strain its parameters do not matter. */
   m = good;
-  m.m_R = 0.0, m.R = 0.0, m.chi = 0.0, m.beta_r = 0.0, m.m_T = 0.0;
+  m.value[SAND_M_R] = 0.0, m.value[SAND_R] = 0.0, m.value[SAND_CHI] = 0.0, m.value[SAND_BETA_R] = 0.0,
+  m.value[SAND_M_T] = 0.0;
   assert_int_equal(hypofab_material_check(&m), HYPOFAB_OK);
 }
 
 static void test_state_check(void **unused) {
   (void)unused;
   hypofab_material m;
-  assert_int_equal(hypofab_sand("paper000", &m), HYPOFAB_OK);
-  const hypofab_state good = {{-100, -100, -100, 0, 0, 0}, {1e-4, 0, 0, 0, 0, 0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("paper000", &m), HYPOFAB_OK);
+  const hypofab_state good = {{-100, -100, -100, 0, 0, 0}, {1e-4, 0, 0, 0, 0, 0, 0.7}};
   assert_int_equal(hypofab_state_check(&m, &good), HYPOFAB_OK);
   hypofab_state s = good;
-  s.delta[1] = 1e-4;
+  s.variable[1] = 1e-4;
   assert_int_equal(hypofab_state_check(&m, &s), HYPOFAB_BAD_STATE);
   assert_non_null(strstr(hypofab_last_message(), "|delta|"));
-  s.delta[1] = 4e-6; /* |delta| = 1.0008 R: the rounding of a printed table */
+  s.variable[1] = 4e-6; /* |delta| = 1.0008 R: the rounding of a printed table */
   assert_int_equal(hypofab_state_check(&m, &s), HYPOFAB_OK);
   s = good;
   s.stress[2] = 0.0;
   assert_int_equal(hypofab_state_check(&m, &s), HYPOFAB_BAD_STATE);
   assert_non_null(strstr(hypofab_last_message(), "stress"));
-  m.p_t = 1.0; /* cohesion-like shift makes the same stress admissible */
+  m.value[SAND_P_T] = 1.0; /* cohesion-like shift makes the same stress admissible */
   assert_int_equal(hypofab_state_check(&m, &s), HYPOFAB_OK);
   s = good;
-  s.void_ratio = -1.0;
+  s.variable[VOID_RATIO] = -1.0;
   assert_int_equal(hypofab_state_check(&m, &s), HYPOFAB_BAD_STATE);
   assert_non_null(strstr(hypofab_last_message(), "void_ratio = -1"));
 }

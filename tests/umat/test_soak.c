@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 #include "umat_call.h"
@@ -67,7 +68,7 @@ static void random_input(random_stream *r, input *in) {
   if (random_uniform(r, 0.0, 1.0) < 0.3) in->ntens = random_uniform(r, 0.0, 1.0) < 0.5 ? 4 : 3;
   in->has_pnewdt = random_uniform(r, 0.0, 1.0) < 0.5;
   in->has_drot = random_uniform(r, 0.0, 1.0) < 0.5;
-  memcpy(in->props, &material, sizeof in->props);
+  memcpy(in->props, material.value, sizeof in->props);
   in->props[15] = 0.7;
   if (random_uniform(r, 0.0, 1.0) < 0.2) in->props[14] = 1e5;
   const int shear = in->ntens == 3 ? 2 : 3;
@@ -77,8 +78,8 @@ static void random_input(random_stream *r, input *in) {
   random_direction(r, direction);
   const double size = exp(random_uniform(r, log(1e-9), log(3e-2)));
   for (int k = 0; k < 6; k++) in->dstran[k] = size * direction[k];
-  for (int k = 0; k < 6; k++) in->statev[k] = (k < 3 ? 1.0 : 2.0) * state.delta[k];
-  in->statev[6] = state.void_ratio;
+  for (int k = 0; k < 6; k++) in->statev[k] = (k < 3 ? 1.0 : 2.0) * state.variable[k];
+  in->statev[6] = state.variable[VOID_RATIO];
   in->statev[8] = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0;
   double q[3][3];
   random_rotation(r, q);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -64,10 +65,10 @@ static double distance(const double a[36], const double b[36]) {
 
 /* Increments that continue, reverse, turn, or go nowhere in particular. */
 static void random_increment(random_stream *r, const hypofab_state *state, double strain[6]) {
-  double direction[6], kind = random_uniform(r, 0.0, 4.0), size = tensor_norm(state->delta);
+  double direction[6], kind = random_uniform(r, 0.0, 4.0), size = tensor_norm(state->variable);
   random_direction(r, direction);
   for (int k = 0; k < 6; k++) {
-    double along = size > 0.0 ? state->delta[k] / size : 0.0;
+    double along = size > 0.0 ? state->variable[k] / size : 0.0;
     strain[k] = kind < 1.0 ? along + 0.05 * direction[k] : kind < 2.0 ? -along + 0.3 * direction[k] : direction[k];
   }
   const double length = exp(random_uniform(r, log(1e-7), log(1e-2))) / tensor_norm(strain);
@@ -92,9 +93,9 @@ static void test_against_central_differences(void **unused) {
     const double error = distance(tangent, expected) / largest(expected);
     if (error > 1e-5)
       print_message("state %d: error %.2g, |strain| %.2g, rho %.3g, m_R %g\n", i, error, length,
-                    tensor_norm(state.delta) / material.R, material.m_R);
+                    tensor_norm(state.variable) / material.value[SAND_R], material.value[SAND_M_R]);
     worst = fmax(worst, error);
-    reversals += tensor_dot(state.delta, strain) < 0.0;
+    reversals += tensor_dot(state.variable, strain) < 0.0;
     compared++;
   }
   print_message("worst relative error of %d tangents: %.2g\n", compared, worst);
@@ -123,8 +124,9 @@ static void test_converges_with_the_tolerance(void **unused) {
 
 /* Is a state about as dense as the densest packing at its pressure, where f_d begins with an infinite slope? */
 static int near_e_d(const hypofab_material *m, const hypofab_state *state) {
-  const double pressure = 3.0 * m->p_t - state->stress[0] - state->stress[1] - state->stress[2];
-  return state->void_ratio < 1.02 * m->e_d0 * exp(-pow(pressure / m->h_s, m->n));
+  const double pressure = 3.0 * m->value[SAND_P_T] - state->stress[0] - state->stress[1] - state->stress[2];
+  return state->variable[VOID_RATIO] <
+         1.02 * m->value[SAND_E_D0] * exp(-pow(pressure / m->value[SAND_H_S], m->value[SAND_N]));
 }
 
 /* T(strain) is homogeneous where the state carries no scale: the tangent turns with the axes. */
@@ -140,7 +142,7 @@ static void test_objective(void **unused) {
     random_direction(&r, probe);
     random_rotation(&r, q);
     tensor_rotate(q, state.stress, turned.stress);
-    tensor_rotate(q, state.delta, turned.delta);
+    tensor_rotate(q, state.variable, turned.variable);
     tensor_rotate(q, strain, turned_strain);
     tensor_rotate(q, probe, turned_probe);
     if (hypofab_update(&material, NULL, &state, strain, tangent, NULL)) continue;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 #include "umat_call.h"
@@ -20,14 +21,14 @@ static void call(int ntens, double *stress, double *statev, double *ddsdde, cons
 }
 
 static void props_of(const hypofab_material *material, double e_0, double props[16]) {
-  memcpy(props, material, 16 * sizeof *props);
+  memcpy(props, material->value, 16 * sizeof *props);
   props[15] = e_0;
 }
 
 static void statev_of(const hypofab_state *state, double statev[13]) {
   memset(statev, 0, 13 * sizeof *statev);
-  for (int i = 0; i < 6; i++) statev[i] = (i < 3 ? 1.0 : 2.0) * state->delta[i];
-  statev[6] = state->void_ratio;
+  for (int i = 0; i < 6; i++) statev[i] = (i < 3 ? 1.0 : 2.0) * state->variable[i];
+  statev[6] = state->variable[VOID_RATIO];
 }
 
 /* NTENS = 6 against hypofab_update: engineering shear in, engineering shear stored. */
@@ -53,15 +54,16 @@ static void test_three_dimensions(void **unused) {
     assert_true(pnewdt == 1.0);
     assert_true(tensor_distance(stress, state.stress) <= 1e-12 * tensor_norm(state.stress));
     for (int k = 0; k < 6; k++) {
-      assert_true(fabs(statev[k] - (k < 3 ? 1.0 : 2.0) * state.delta[k]) <= 1e-12 * material.R);
+      assert_true(fabs(statev[k] - (k < 3 ? 1.0 : 2.0) * state.variable[k]) <= 1e-12 * material.value[SAND_R]);
       for (int l = 0; l < 6; l++) /* column-major, engineering shear */
         assert_true(fabs(ddsdde[6 * l + k] - tangent[6 * k + l] * (l < 3 ? 1.0 : 0.5)) <= 1e-12 * fabs(tangent[0]));
     }
-    assert_true(fabs(statev[6] - state.void_ratio) < 1e-12);
+    assert_true(fabs(statev[6] - state.variable[VOID_RATIO]) < 1e-12);
     assert_true(statev[8] == -(stress[0] + stress[1] + stress[2]) / 3.0);
     assert_true(statev[9] >= 3.0 && statev[12] > 0.0);
     assert_true(fabs(statev[10] - hypofab_friction_angle(stress)) < 1e-9);
-    if (material.m_R > 0.5) assert_true(fabs(statev[11] - tensor_norm(state.delta) / material.R) < 1e-12);
+    if (material.value[SAND_M_R] > 0.5)
+      assert_true(fabs(statev[11] - tensor_norm(state.variable) / material.value[SAND_R]) < 1e-12);
   }
   assert_true(compared > 120);
 }
@@ -70,7 +72,7 @@ static void test_three_dimensions(void **unused) {
 static void test_plane_strain(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
   double props[16], ddsdde6[36], ddsdde[16], ddsdde3[9];
   props_of(&material, 0.7, props);
   double stress6[6] = {-100, -150, -100, 10, 0, 0}, stress4[4] = {-100, -150, -100, 10}, stress3[3] = {-100, -150, 10};
@@ -124,7 +126,7 @@ static void test_order_of_shear_in_kratos(void **unused) {
 static void test_pore_water(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   double dry_props[16], wet_props[16], dry[6] = {-100, -120, -100, 5, 0, 0}, wet[6], dry_statev[13] = {0};
   double wet_statev[13] = {0}, dry_stiffness[36], wet_stiffness[36];
   props_of(&material, 0.7, dry_props);
@@ -149,16 +151,16 @@ static void test_rotation(void **unused) {
   (void)unused;
   random_stream r = {22};
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   double props[16], q[3][3], drot[9], ddsdde[36];
   props_of(&material, 0.7, props);
   random_rotation(&r, q);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) drot[3 * j + i] = q[i][j];
-  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7}, turned = state;
-  random_direction(&r, state.delta);
-  for (int k = 0; k < 6; k++) state.delta[k] *= 0.9e-4;
-  tensor_rotate(q, state.delta, turned.delta);
+  hypofab_state state = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.7}}, turned = state;
+  random_direction(&r, state.variable);
+  for (int k = 0; k < 6; k++) state.variable[k] *= 0.9e-4;
+  tensor_rotate(q, state.variable, turned.variable);
   double a[6], b[6], sa[13], sb[13];
   memcpy(a, state.stress, sizeof a), memcpy(b, state.stress, sizeof b);
   statev_of(&state, sa), statev_of(&turned, sb);
@@ -172,9 +174,9 @@ static void test_rotation(void **unused) {
 static void test_initial_void_ratio(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const double given[3] = {0.7, 10.7, -0.7};
-  const double at_zero_stress = 0.7 * exp(-pow(300.0 / material.h_s, material.n));
+  const double at_zero_stress = 0.7 * exp(-pow(300.0 / material.value[SAND_H_S], material.value[SAND_N]));
   const double expected[3] = {0.7, 0.7, at_zero_stress};
   for (int i = 0; i < 3; i++) {
     double props[16], stress[6] = {-100, -100, -100, 0, 0, 0}, statev[13] = {0}, ddsdde[36];
@@ -192,7 +194,7 @@ static void test_initial_void_ratio(void **unused) {
 static void test_requests_a_smaller_step(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   double props[16], bad_props[16];
   props_of(&material, 0.7, props);
   props_of(&material, 0.7, bad_props);

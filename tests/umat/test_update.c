@@ -4,6 +4,7 @@
 
 #include "hypofab.h"
 #include "support/reference.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 
@@ -26,12 +27,12 @@ static void test_short_increments_from_zero_delta(void **unused) {
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) {
         hypofab_material material;
-        assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
-        material.beta_r = exact ? 1.0 : 0.5;
-        material.chi = chis[i];
+        assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
+        material.value[SAND_BETA_R] = exact ? 1.0 : 0.5;
+        material.value[SAND_CHI] = chis[i];
         double strain[6];
         for (int k = 0; k < 6; k++) strain[k] = lengths[j] / tensor_norm(direction) * direction[k];
-        const hypofab_state start = {.stress = {-100.0, -150.0, -80.0, 10.0, -5.0, 20.0}, .void_ratio = 0.7};
+        const hypofab_state start = {.stress = {-100.0, -150.0, -80.0, 10.0, -5.0, 20.0}, .variable[VOID_RATIO] = 0.7};
         hypofab_state quick = start, slow = start;
         hypofab_update_report report;
         const hypofab_update_options tight = {.tolerance = 1e-11};
@@ -39,11 +40,12 @@ static void test_short_increments_from_zero_delta(void **unused) {
         assert_int_equal(report.evaluations, 2);
         assert_int_equal(hypofab_update(&material, &tight, &slow, strain, NULL, &report), HYPOFAB_OK);
         assert_true(tensor_distance(quick.stress, slow.stress) < 1e-6 * tensor_norm(slow.stress));
-        const double rho = tensor_norm(quick.delta) / material.R;
+        const double rho = tensor_norm(quick.variable) / material.value[SAND_R];
         const double length = exact ? -log1p(-rho) : -2.0 * (sqrt(rho) + log1p(-sqrt(rho)));
-        assert_true(fabs(length - lengths[j] / material.R) < 1e-9);
+        assert_true(fabs(length - lengths[j] / material.value[SAND_R]) < 1e-9);
         for (int k = 0; k < 6; k++)
-          assert_true(fabs(quick.delta[k] - rho * material.R * strain[k] / lengths[j]) < 1e-12 * material.R);
+          assert_true(fabs(quick.variable[k] - rho * material.value[SAND_R] * strain[k] / lengths[j]) <
+                      1e-12 * material.value[SAND_R]);
       }
 }
 
@@ -54,7 +56,8 @@ static void test_short_increments_from_zero_delta(void **unused) {
 static void integrate_delta(const hypofab_material *material, const double start[6], const double strain[6],
                             double end[6]) {
   enum { N_STEPS = 200000 };
-  const double length = tensor_norm(strain), R = material->R, exponent = 0.5 * material->beta_r - 1.0;
+  const double length = tensor_norm(strain), R = material->value[SAND_R],
+               exponent = 0.5 * material->value[SAND_BETA_R] - 1.0;
   double direction[6], normal[6];
   for (int k = 0; k < 6; k++) direction[k] = strain[k] / length;
   double u = tensor_dot(start, direction) / R;
@@ -87,13 +90,13 @@ static void test_delta_is_exact(void **unused) {
   json_array_foreach(json_object_get(reference, "strain_paths"), index, path) {
     hypofab_material material = reference_material(reference, path);
     hypofab_state state = reference_state(path);
-    if (material.m_R <= 0.5 || tensor_norm(state.delta) == 0.0) continue;
+    if (material.value[SAND_M_R] <= 0.5 || tensor_norm(state.variable) == 0.0) continue;
     double strain[6], expected[6];
     reference_tensor(json_array_get(json_object_get(path, "strain_legs"), 0), strain);
-    integrate_delta(&material, state.delta, strain, expected);
+    integrate_delta(&material, state.variable, strain, expected);
     const hypofab_update_options options = {.tolerance = 1e-9};
     assert_int_equal(hypofab_update(&material, &options, &state, strain, NULL, NULL), HYPOFAB_OK);
-    assert_true(tensor_distance(state.delta, expected) < 1e-10 * material.R);
+    assert_true(tensor_distance(state.variable, expected) < 1e-10 * material.value[SAND_R]);
     compared++;
   }
   assert_true(compared >= 8);
@@ -125,12 +128,12 @@ static double worst_error(double tolerance, double *of_inexact_path) {
       const json_t *end = json_array_get(json_object_get(path, "ends"), number);
       reference_tensor(json_object_get(end, "stress"), expected);
       worst = fmax(worst, tensor_distance(state.stress, expected) / tensor_norm(expected));
-      if (material.m_R > 0.5) {
+      if (material.value[SAND_M_R] > 0.5) {
         reference_tensor(json_object_get(end, "intergranular_strain"), expected);
-        worst = fmax(worst, tensor_distance(state.delta, expected) / material.R);
+        worst = fmax(worst, tensor_distance(state.variable, expected) / material.value[SAND_R]);
       }
       const double e = json_number_value(json_object_get(end, "void_ratio"));
-      worst = fmax(worst, fabs(state.void_ratio / e - 1.0));
+      worst = fmax(worst, fabs(state.variable[VOID_RATIO] / e - 1.0));
       double *place = index == INEXACT_PATH ? of_inexact_path : &worst_of_exact;
       *place = fmax(*place, worst);
     }
@@ -167,7 +170,7 @@ static void test_additive(void **unused) {
     for (int k = 0; k < 6; k++) part[k] = strain[k] - part[k];
     assert_int_equal(hypofab_update(&material, &options, &twice, part, NULL, NULL), HYPOFAB_OK);
     assert_true(tensor_distance(once.stress, twice.stress) < 1e-7 * tensor_norm(once.stress));
-    assert_true(tensor_distance(once.delta, twice.delta) < 1e-7 * material.R);
+    assert_true(tensor_distance(once.variable, twice.variable) < 1e-7 * material.value[SAND_R]);
   }
 }
 
@@ -184,7 +187,7 @@ static void test_objective(void **unused) {
     for (int k = 0; k < 6; k++) strain[k] *= 5e-4;
     random_rotation(&r, q);
     tensor_rotate(q, state.stress, turned.stress);
-    tensor_rotate(q, state.delta, turned.delta);
+    tensor_rotate(q, state.variable, turned.variable);
     tensor_rotate(q, strain, turned_strain);
     if (hypofab_update(&material, NULL, &state, strain, NULL, NULL)) continue;
     assert_int_equal(hypofab_update(&material, NULL, &turned, turned_strain, NULL, NULL), HYPOFAB_OK);
@@ -202,13 +205,14 @@ static void test_void_ratio_and_bound_of_delta(void **unused) {
   for (int i = 0; i < 200; i++) {
     hypofab_material material = random_material(&r);
     hypofab_state state = random_state(&r, &material);
-    double strain[6], e0 = state.void_ratio;
+    double strain[6], e0 = state.variable[VOID_RATIO];
     random_direction(&r, strain);
     for (int k = 0; k < 6; k++) strain[k] *= 2e-3;
     if (hypofab_update(&material, NULL, &state, strain, NULL, NULL)) continue;
     const double expected = (1.0 + e0) * exp(strain[0] + strain[1] + strain[2]) - 1.0;
-    assert_true(fabs(state.void_ratio / expected - 1.0) < 1e-9);
-    if (material.m_R > 0.5) assert_true(tensor_norm(state.delta) < material.R * (1.0 + 1e-6));
+    assert_true(fabs(state.variable[VOID_RATIO] / expected - 1.0) < 1e-9);
+    if (material.value[SAND_M_R] > 0.5)
+      assert_true(tensor_norm(state.variable) < material.value[SAND_R] * (1.0 + 1e-6));
   }
 }
 
@@ -216,16 +220,16 @@ static void test_void_ratio_and_bound_of_delta(void **unused) {
 static void test_reversal_is_located(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  const double R = material.R;
-  const hypofab_state start = {{-100, -100, -100, 0, 0, 0}, {R, 0, 0, 0, 0, 0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  const double R = material.value[SAND_R];
+  const hypofab_state start = {{-100, -100, -100, 0, 0, 0}, {R, 0, 0, 0, 0, 0, 0.7}};
   const double strain[6] = {-0.4 * R, 0, 0, 0.3 * R, 0, 0}; /* ends just before delta:strain = 0 */
   hypofab_state state = start;
   hypofab_update_report report;
   assert_int_equal(hypofab_update(&material, NULL, &state, strain, NULL, &report), HYPOFAB_OK);
   assert_int_equal(report.branch, HYPOFAB_REVERSAL);
   const double expected[6] = {0.6 * R, 0, 0, 0.3 * R, 0, 0};
-  assert_true(tensor_distance(state.delta, expected) < 1e-14 * R);
+  assert_true(tensor_distance(state.variable, expected) < 1e-14 * R);
   /* Straight back through delta = 0 and on: an antiparallel path, stress the same as with a stop at zero. */
   hypofab_state through = start, stopped = start;
   const double half[6] = {-R, 0, 0, 0, 0, 0}, whole[6] = {-2.0 * R, 0, 0, 0, 0, 0};
@@ -234,13 +238,13 @@ static void test_reversal_is_located(void **unused) {
   assert_int_equal(hypofab_update(&material, NULL, &stopped, half, NULL, NULL), HYPOFAB_OK);
   assert_int_equal(hypofab_update(&material, NULL, &stopped, half, NULL, NULL), HYPOFAB_OK);
   assert_true(tensor_distance(through.stress, stopped.stress) < 2e-6 * tensor_norm(stopped.stress));
-  assert_true(through.delta[0] < 0.0);
+  assert_true(through.variable[0] < 0.0);
 }
 
 static void assert_fails(hypofab_state state, const double strain[6], const hypofab_update_options *options,
                          hypofab_status expected) {
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   const hypofab_state before = state;
   double tangent[36], untouched[36];
   memset(tangent, 0x5a, sizeof tangent);
@@ -254,7 +258,7 @@ static void assert_fails(hypofab_state state, const double strain[6], const hypo
 
 static void test_failures_leave_the_state_untouched(void **unused) {
   (void)unused;
-  const hypofab_state good = {{-100, -100, -100, 0, 0, 0}, {0}, 0.7};
+  const hypofab_state good = {{-100, -100, -100, 0, 0, 0}, {[VOID_RATIO] = 0.7}};
   const double nan_strain[6] = {0, NAN, 0, 0, 0, 0}, huge_strain[6] = {5, 0, 0, 0, 0, 0};
   const double extension[6] = {0.02, 0.02, 0.02, 0, 0, 0}, compression[6] = {-0.01, 0, 0, 0, 0, 0};
   assert_fails(good, nan_strain, NULL, HYPOFAB_BAD_ARGUMENT);
@@ -263,12 +267,12 @@ static void test_failures_leave_the_state_untouched(void **unused) {
   const hypofab_update_options few = {.max_evaluations = 20};
   assert_fails(good, compression, &few, HYPOFAB_STEP_LIMIT);
   hypofab_state bad = good;
-  bad.void_ratio = INFINITY;
+  bad.variable[VOID_RATIO] = INFINITY;
   assert_fails(bad, compression, NULL, HYPOFAB_BAD_STATE);
-  bad.void_ratio = -0.1;
+  bad.variable[VOID_RATIO] = -0.1;
   assert_fails(bad, compression, NULL, HYPOFAB_OUT_OF_DOMAIN);
   bad = good;
-  bad.delta[3] = NAN;
+  bad.variable[3] = NAN;
   assert_fails(bad, compression, NULL, HYPOFAB_BAD_STATE);
   bad = good;
   bad.stress[0] = 1.0;
@@ -278,8 +282,8 @@ static void test_failures_leave_the_state_untouched(void **unused) {
 static void test_zero_increment_changes_nothing(void **unused) {
   (void)unused;
   hypofab_material material;
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
-  hypofab_state state = {{-100, -120, -90, 5, 0, 0}, {1e-5, 0, 0, 0, 0, 0}, 0.7};
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
+  hypofab_state state = {{-100, -120, -90, 5, 0, 0}, {1e-5, 0, 0, 0, 0, 0, 0.7}};
   const hypofab_state before = state;
   const double zero[6] = {0}, tiny[6] = {1e-300, 0, 0, 0, 0, 0};
   double tangent[36];

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "hypofab.h"
+#include "support/sand.h"
 #include "support/states.h"
 #include "support/tensors.h"
 #include "umat_call.h"
@@ -29,8 +30,8 @@ static void fill_point(block *b, int i, random_stream *r, const hypofab_material
     put(b, STRESS_OLD, i, k, state.stress[place[k]]);
     put(b, STRAIN_INC, i, k, strain[place[k]]);
   }
-  for (int k = 0; k < 6; k++) put(b, STATE_OLD, i, k, k < 3 + b->nshr ? shear_factor(k) * state.delta[k] : 0.0);
-  put(b, STATE_OLD, i, 6, state.void_ratio);
+  for (int k = 0; k < 6; k++) put(b, STATE_OLD, i, k, k < 3 + b->nshr ? shear_factor(k) * state.variable[k] : 0.0);
+  put(b, STATE_OLD, i, 6, state.variable[VOID_RATIO]);
   put(b, STATE_OLD, i, 7, random_uniform(r, 0.0, 0.1)); /* some pore pressure */
 }
 
@@ -50,29 +51,28 @@ static int by_umat(const block *b, int i, double stress[6], double statev[13]) {
 
 /* The same point by hypofab_update, which integrates stress alone as vumat_ does. */
 static int by_update(const block *b, int i, double stress[6], double statev[13]) {
-  hypofab_material material;
   double props[16], strain[6] = {0}, pore_pressure = get(b, STATE_OLD, i, 7);
   for (int k = 0; k < 16; k++) props[k] = get(b, PROPS, 0, k);
-  memcpy(&material, props, sizeof material);
-  hypofab_state state = {{0}, {0}, get(b, STATE_OLD, i, 6)};
+  const hypofab_material material = sand_from_props(props);
+  hypofab_state state = {{0}, {[VOID_RATIO] = get(b, STATE_OLD, i, 6)}};
   for (int k = 0; k < 3 + b->nshr; k++) {
     state.stress[place[k]] = get(b, STRESS_OLD, i, k) + (k < 3 ? pore_pressure : 0.0);
     strain[place[k]] = get(b, STRAIN_INC, i, k);
   }
-  if (material.m_R > 0.5)
-    for (int k = 0; k < 6; k++) state.delta[k] = get(b, STATE_OLD, i, k) / shear_factor(k);
+  if (material.value[SAND_M_R] > 0.5)
+    for (int k = 0; k < 6; k++) state.variable[k] = get(b, STATE_OLD, i, k) / shear_factor(k);
   const hypofab_update_options as_host = {.regularised = 1};
   if (hypofab_update(&material, &as_host, &state, strain, NULL, NULL)) return 0;
-  pore_pressure -= material.K_w * (strain[0] + strain[1] + strain[2]);
+  pore_pressure -= material.value[SAND_K_W] * (strain[0] + strain[1] + strain[2]);
   for (int k = 0; k < 6; k++) {
     stress[k] = state.stress[k] - (k < 3 ? pore_pressure : 0.0);
-    statev[k] = material.m_R > 0.5 ? shear_factor(k) * state.delta[k] : get(b, STATE_OLD, i, k);
+    statev[k] = material.value[SAND_M_R] > 0.5 ? shear_factor(k) * state.variable[k] : get(b, STATE_OLD, i, k);
   }
-  statev[6] = state.void_ratio;
+  statev[6] = state.variable[VOID_RATIO];
   statev[7] = pore_pressure;
   statev[8] = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0;
   statev[10] = hypofab_friction_angle(state.stress);
-  statev[11] = material.m_R > 0.5 ? tensor_norm(state.delta) / material.R : 0.0;
+  statev[11] = material.value[SAND_M_R] > 0.5 ? tensor_norm(state.variable) / material.value[SAND_R] : 0.0;
   return 1;
 }
 
@@ -109,7 +109,7 @@ static int compare(const block *b, reference update, double tolerance) {
 }
 
 static void props_of(const hypofab_material *material, double e_0, double props[16]) {
-  memcpy(props, material, 16 * sizeof *props);
+  memcpy(props, material->value, 16 * sizeof *props);
   props[15] = e_0;
 }
 
@@ -142,7 +142,7 @@ static void test_empty_block(void **unused) {
   (void)unused;
   hypofab_material material;
   double props[16];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   props_of(&material, 0.7, props);
   block b = block_create(0, 3, 13, 0, props);
   block_call(&b);
@@ -156,7 +156,7 @@ static void test_single_precision(void **unused) {
   int points = 0, integrated = 0;
   for (int run = 0; run < 40; run++) {
     hypofab_material material = random_material(&r);
-    material.m_R = 5.0, material.m_T = 2.0; /* with intergranular strain */
+    material.value[SAND_M_R] = 5.0, material.value[SAND_M_T] = 2.0; /* with intergranular strain */
     double props[16];
     props_of(&material, 0.7, props);
     block b = block_create(20, run % 2 ? 1 : 3, 14, 1, props);
@@ -176,23 +176,23 @@ static void test_rotation(void **unused) {
   for (int run = 0; run < 50; run++) {
     hypofab_material material;
     double props[16], q[3][3], strain[6], turned[3][6];
-    assert_int_equal(hypofab_sand("hochstetten", &material), HYPOFAB_OK);
+    assert_int_equal(hypofab_material_built_in("hochstetten", &material), HYPOFAB_OK);
     props_of(&material, 0.7, props);
     hypofab_state state = random_state(&r, &material);
     random_direction(&r, strain);
     for (int k = 0; k < 6; k++) strain[k] *= 1e-4;
     random_rotation(&r, q);
     tensor_rotate(q, state.stress, turned[0]);
-    tensor_rotate(q, state.delta, turned[1]);
+    tensor_rotate(q, state.variable, turned[1]);
     tensor_rotate(q, strain, turned[2]);
     block b = block_create(2, 3, 13, 0, props);
     for (int i = 0; i < 2; i++) {
       for (int k = 0; k < 6; k++) {
         put(&b, STRESS_OLD, i, k, (i ? turned[0] : state.stress)[place[k]]);
-        put(&b, STATE_OLD, i, k, shear_factor(k) * (i ? turned[1] : state.delta)[k]);
+        put(&b, STATE_OLD, i, k, shear_factor(k) * (i ? turned[1] : state.variable)[k]);
         put(&b, STRAIN_INC, i, k, (i ? turned[2] : strain)[place[k]]);
       }
-      put(&b, STATE_OLD, i, 6, state.void_ratio);
+      put(&b, STATE_OLD, i, 6, state.variable[VOID_RATIO]);
     }
     block_call(&b);
     double end[2][6], delta[2][6], expected[6];
@@ -204,7 +204,7 @@ static void test_rotation(void **unused) {
     tensor_rotate(q, end[0], expected);
     assert_true(tensor_distance(expected, end[1]) <= 1e-9 * tensor_norm(end[1]));
     tensor_rotate(q, delta[0], expected);
-    assert_true(tensor_distance(expected, delta[1]) <= 1e-9 * material.R);
+    assert_true(tensor_distance(expected, delta[1]) <= 1e-9 * material.value[SAND_R]);
     assert_true(fabs(get(&b, INTERN_NEW, 0, 0) + 1.0 - get(&b, INTERN_NEW, 1, 0)) <= 1e-9);
     block_free(&b);
   }
@@ -236,7 +236,7 @@ static void test_bad_point_keeps_its_state(void **unused) {
   (void)unused;
   hypofab_material material;
   double props[16];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   props_of(&material, 0.7, props);
   for (int single = 0; single < 2; single++)
     for (int nstatev = 13; nstatev < 17; nstatev++) {
@@ -270,7 +270,7 @@ static void test_zero_and_tensile_stress(void **unused) {
   (void)unused;
   hypofab_material material;
   double props[16];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   props_of(&material, 0.7, props);
   for (int single = 0; single < 2; single++)
     for (int sign = -1; sign <= 1; sign += 2) {
@@ -296,7 +296,7 @@ static void test_bad_set_up_keeps_every_state(void **unused) {
   (void)unused;
   hypofab_material material;
   double props[16];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   props_of(&material, 0.7, props);
   const double bad[] = {NAN, INFINITY, 0.0, 90.0};
   for (int k = 0; k < 4; k++) {
@@ -324,7 +324,7 @@ static void test_energy_needs_a_density(void **unused) {
   (void)unused;
   hypofab_material material;
   double props[16];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   props_of(&material, 0.7, props);
   block b = block_create(4, 3, 13, 0, props);
   for (int i = 0; i < 4; i++) isotropic_point(&b, i);
@@ -341,7 +341,7 @@ static void test_initial_void_ratio(void **unused) {
   (void)unused;
   hypofab_material material;
   double props[16];
-  assert_int_equal(hypofab_sand("paper000", &material), HYPOFAB_OK);
+  assert_int_equal(hypofab_material_built_in("paper000", &material), HYPOFAB_OK);
   props_of(&material, 10.66, props);
   block b = block_create(1, 1, 13, 0, props);
   isotropic_point(&b, 0);

@@ -17,7 +17,7 @@ enum { BATCH_PORTABLE, BATCH_AVX2, BATCH_AVX512 };
 __attribute__((visibility("default"))) int hypofab_batch_best_instructions(void);
 
 /** Update points by a given instruction set, which the processor must have: batch.f90, which describes it. */
-void hypofab_update_points(const hypofab_material *material, const double *tolerance, const int *max_evaluations,
+void hypofab_update_points(const double *parameters, const double *tolerance, const int *max_evaluations,
                            int regularised, int instructions, int n, int64_t stride, double *stress, double *delta,
                            double *void_ratio, const double *strain, int *status, int *evaluations, int64_t *scalar);
 

@@ -7,7 +7,7 @@ module umat_material
   use umat_status, only: status_ok, status_bad_material
   implicit none
   private
-  public :: material_type, parameter_type, material_from_props, check_props
+  public :: material_type, parameter_type, material_from_props, check_props, intergranular_is_on
 
   !> Number of parameters.
   integer, parameter, public :: n_parameters = 16
@@ -17,6 +17,9 @@ module umat_material
   integer, parameter, public :: i_alpha = 8, i_beta = 9, i_m_R = 10, i_m_T = 11, i_R = 12, i_beta_r = 13, i_chi = 14
   integer, parameter, public :: i_K_w = 15, i_e_0 = 16
 
+  !> What a parameter belongs to, the same numbers as hypofab_parameter_role in hypofab_model.h.
+  integer, parameter :: of_base = 0, of_memory = 1, of_host = 2
+
   !> One row of the parameter table. Texts end with a null character for C.
   type :: parameter_type
     character(len=8) :: name
@@ -24,34 +27,49 @@ module umat_material
     character(len=96) :: description
     real(wp) :: lower !< admissible values: lower <= x <= upper
     real(wp) :: upper
-    logical :: intergranular !< checked only when the intergranular strain is on
+    integer :: role = of_base !< those of the memory are checked only when the intergranular strain is on
+    real(wp) :: start = 0.0_wp !< value where none is given
+    logical :: must_be_given = .false. !< there is no such value
+    real(wp) :: usual(2) = 0.0_wp !< range of published sands with room to spare, stresses in kPa; 0 0: not to be calibrated
+    integer :: companion = 0 !< a calibration may keep it at a ratio to this parameter
   end type parameter_type
 
   character, parameter :: nul = achar(0)
   real(wp), parameter :: big = 1.0e30_wp
 
-  !> The parameter table.
+  !> The parameter table. Without a value for m_R, the intergranular strain is that of Hochstetten sand.
   type(parameter_type), parameter, public :: parameters(n_parameters) = [ &
-    parameter_type('phi_c'//nul, 'deg'//nul, 'critical friction angle'//nul, 1.0_wp, 60.0_wp, .false.), &
-    parameter_type('p_t'//nul, 'stress'//nul, 'shift of stress: the model sees T - p_t 1'//nul, 0.0_wp, big, .false.), &
-    parameter_type('h_s'//nul, 'stress'//nul, 'granular hardness'//nul, 1.0e-6_wp, big, .false.), &
-    parameter_type('n'//nul, '-'//nul, 'exponent of the compression law'//nul, 0.01_wp, 1.0_wp, .false.), &
-  parameter_type('e_d0'//nul, '-'//nul, 'void ratio of the densest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
-    parameter_type('e_c0'//nul, '-'//nul, 'critical void ratio at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
-  parameter_type('e_i0'//nul, '-'//nul, 'void ratio of the loosest packing at p = 0'//nul, 0.01_wp, 10.0_wp, .false.), &
-    parameter_type('alpha'//nul, '-'//nul, 'exponent of the density factor f_d'//nul, 0.0_wp, 5.0_wp, .false.), &
-    parameter_type('beta'//nul, '-'//nul, 'exponent of the density factor f_e'//nul, 0.0_wp, 10.0_wp, .false.), &
+    parameter_type('phi_c'//nul, 'deg'//nul, 'critical friction angle'//nul, 1.0_wp, 60.0_wp, &
+                   must_be_given=.true., usual=[20.0_wp, 45.0_wp]), &
+    parameter_type('p_t'//nul, 'stress'//nul, 'shift of stress: the model sees T - p_t 1'//nul, 0.0_wp, big), &
+    parameter_type('h_s'//nul, 'stress'//nul, 'granular hardness'//nul, 1.0e-6_wp, big, &
+                   must_be_given=.true., usual=[1.0e4_wp, 1.0e8_wp]), &
+    parameter_type('n'//nul, '-'//nul, 'exponent of the compression law'//nul, 0.01_wp, 1.0_wp, &
+                   must_be_given=.true., usual=[0.05_wp, 0.8_wp]), &
+    parameter_type('e_d0'//nul, '-'//nul, 'void ratio of the densest packing at p = 0'//nul, 0.01_wp, 10.0_wp, &
+                   must_be_given=.true., usual=[0.2_wp, 1.0_wp], companion=i_e_c0), &
+    parameter_type('e_c0'//nul, '-'//nul, 'critical void ratio at p = 0'//nul, 0.01_wp, 10.0_wp, &
+                   must_be_given=.true., usual=[0.4_wp, 1.6_wp]), &
+    parameter_type('e_i0'//nul, '-'//nul, 'void ratio of the loosest packing at p = 0'//nul, 0.01_wp, 10.0_wp, &
+                   must_be_given=.true., usual=[0.5_wp, 2.0_wp], companion=i_e_c0), &
+    parameter_type('alpha'//nul, '-'//nul, 'exponent of the density factor f_d'//nul, 0.0_wp, 5.0_wp, &
+                   must_be_given=.true., usual=[0.01_wp, 1.0_wp]), &
+    parameter_type('beta'//nul, '-'//nul, 'exponent of the density factor f_e'//nul, 0.0_wp, 10.0_wp, &
+                   must_be_given=.true., usual=[0.1_wp, 5.0_wp]), &
     parameter_type('m_R'//nul, '-'//nul, 'stiffness factor at reversal; <= 0.5: no intergranular strain'//nul, &
-                   0.0_wp, 100.0_wp, .false.), &
-    parameter_type('m_T'//nul, '-'//nul, 'stiffness factor at a 90 degree turn'//nul, 0.1_wp, 100.0_wp, .true.), &
-    parameter_type('R'//nul, '-'//nul, 'size of the elastic strain range, largest |delta|'//nul, &
-                   1.0e-8_wp, 0.1_wp, .true.), &
-    parameter_type('beta_r'//nul, '-'//nul, 'exponent of the evolution of delta'//nul, 1.0e-3_wp, 20.0_wp, .true.), &
-    parameter_type('chi'//nul, '-'//nul, 'exponent of the interpolation in rho'//nul, 1.0e-3_wp, 100.0_wp, .true.), &
+                   0.0_wp, 100.0_wp, of_memory, start=5.0_wp, usual=[1.0_wp, 15.0_wp]), &
+    parameter_type('m_T'//nul, '-'//nul, 'stiffness factor at a 90 degree turn'//nul, 0.1_wp, 100.0_wp, &
+                   of_memory, start=2.0_wp, usual=[1.0_wp, 10.0_wp]), &
+    parameter_type('R'//nul, '-'//nul, 'size of the elastic strain range, largest |delta|'//nul, 1.0e-8_wp, 0.1_wp, &
+                   of_memory, start=1.0e-4_wp, usual=[1.0e-5_wp, 5.0e-4_wp]), &
+    parameter_type('beta_r'//nul, '-'//nul, 'exponent of the evolution of delta'//nul, 1.0e-3_wp, 20.0_wp, &
+                   of_memory, start=0.5_wp, usual=[0.02_wp, 2.0_wp]), &
+    parameter_type('chi'//nul, '-'//nul, 'exponent of the interpolation in rho'//nul, 1.0e-3_wp, 100.0_wp, &
+                   of_memory, start=6.0_wp, usual=[0.2_wp, 20.0_wp]), &
     parameter_type('K_w'//nul, 'stress'//nul, 'bulk stiffness of pore water (UMAT only); 0: drained'//nul, &
-                   0.0_wp, big, .false.), &
+                   0.0_wp, big, of_host), &
     parameter_type('e_0'//nul, '-'//nul, 'initial void ratio (UMAT only), see docs/umat.md'//nul, &
-                   -10.0_wp, 20.0_wp, .false.)]
+                   -10.0_wp, 20.0_wp, of_host)]
 
   !> How two parameters that contradict each other are named.
   character(len=*), parameter :: contradiction = &
@@ -127,7 +145,7 @@ contains
     text = ''
     if (present(name)) name = ''
     do i = 1, n_parameters
-      if (parameters(i)%intergranular .and. .not. intergranular_is_on(props)) cycle
+      if (parameters(i)%role == of_memory .and. i /= i_m_R .and. .not. intergranular_is_on(props)) cycle
       if (ieee_is_finite(props(i))) then ! before any comparison: one with NaN would trap
         if (props(i) >= parameters(i)%lower .and. props(i) <= parameters(i)%upper) cycle
       end if

@@ -62,8 +62,8 @@ class Material(Mapping[str, float]):
 
     @classmethod
     def from_numbers(cls, numbers: Array) -> Self:
-        """From the sixteen numbers of PROPS."""
-        return cls(**dict(zip(ORDER, map(float, numbers), strict=True)))
+        """From the numbers of the library: the model's place in the registry, then its parameters."""
+        return cls(**dict(zip(ORDER, map(float, numbers[1 : 1 + len(ORDER)]), strict=True)))
 
     def __getitem__(self, name: str) -> float:
         """A parameter by its name."""
@@ -85,8 +85,10 @@ class Material(Mapping[str, float]):
         return self.m_R > 0.5
 
     def numbers(self) -> Array:
-        """The sixteen numbers of PROPS."""
-        return np.array([getattr(self, name) for name in ORDER], dtype=np.float64)
+        """The numbers of the library: the model's place in the registry, then its parameters."""
+        numbers = np.zeros(MATERIAL_NUMBERS)
+        numbers[1 : 1 + len(ORDER)] = [getattr(self, name) for name in ORDER]
+        return numbers
 
     def check(self) -> None:
         """Raise InputError unless every parameter is within its bounds and fits the others."""
@@ -100,6 +102,9 @@ class Material(Mapping[str, float]):
         """Parameters by name, as decks take them."""
         return asdict(self)
 
+
+MATERIAL_NUMBERS = 33
+"""Length of a material in the library: its model, and room for parameters."""
 
 ORDER = (
     *("phi_c", "p_t", "h_s", "n", "e_d0", "e_c0", "e_i0", "alpha", "beta"),
@@ -136,7 +141,7 @@ def sands() -> Mapping[str, Sand]:
     """The built-in sands by name."""
     found = {}
     while True:
-        status, numbers, name, description, source = core.sand(len(found))
+        status, numbers, name, description, source = core.parameter_set(0, len(found))
         if status:
             return found
         found[text(name)] = Sand(text(name), text(description), text(source), Material.from_numbers(numbers))
@@ -147,7 +152,7 @@ def parameters() -> Mapping[str, Parameter]:
     """The material parameters by name."""
     found = {}
     for index in range(len(ORDER)):
-        status, bounds, name, unit, description = core.parameter_info(index)
+        status, bounds, _, name, unit, description = core.parameter_info(0, index)
         check(status)
-        found[text(name)] = Parameter(text(name), text(unit), text(description), *map(float, bounds))
+        found[text(name)] = Parameter(text(name), text(unit), text(description), *map(float, bounds[:2]))
     return found

@@ -48,12 +48,12 @@ class State:
 
     @classmethod
     def from_numbers(cls, numbers: Array) -> Self:
-        """From thirteen numbers: stress, delta, void ratio."""
+        """From the numbers of the library: stress, delta, void ratio."""
         return cls(numbers[:6], float(numbers[12]), numbers[6:12])
 
     def numbers(self) -> Array:
-        """Thirteen numbers: stress, delta, void ratio."""
-        return np.concatenate([self.stress, self.delta, [self.void_ratio]])
+        """The numbers of the library: stress, delta, void ratio, and room for those of other models."""
+        return np.concatenate([self.stress, self.delta, [self.void_ratio], np.zeros(9)])
 
     def __eq__(self, other: object) -> bool:
         """The same numbers."""
@@ -224,9 +224,12 @@ def update_many(
     if n == 0:
         material.check()
         return Points(stress, delta, ratios, np.zeros(0, dtype=np.intc), 0, 0, 1, "portable")
+    numbers = np.zeros((n, 16), order="F")
+    numbers[:, :6], numbers[:, 6] = delta, ratios
     status, statuses, report, instructions = core.update_batch(
-        material.numbers(), tolerance, max_evaluations, threads, stress.T, delta.T, ratios, strain.T
+        material.numbers(), tolerance, max_evaluations, threads, stress.T, numbers.T, strain.T
     )
+    delta, ratios = np.array(numbers[:, :6], order="F"), numbers[:, 6].copy()
     if status >= Status.BAD_MATERIAL and not statuses.any():
         check(status)
     if status and check_points:

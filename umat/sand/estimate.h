@@ -1,9 +1,15 @@
 /**
  * @file estimate.h
- * @brief Formulas behind the direct estimates.
+ * @brief Direct estimates of the sand, and the formulas behind them.
  */
-#ifndef HYPOFAB_CALIBRATION_ESTIMATE_H
-#define HYPOFAB_CALIBRATION_ESTIMATE_H
+#ifndef HYPOFAB_SAND_ESTIMATE_H
+#define HYPOFAB_SAND_ESTIMATE_H
+
+#include "hypofab_calibration.h"
+
+/** Operation `estimate` of the sand: after Herle and Gudehus (1999), from index tests and laboratory tests. */
+hypofab_status hypofab_sand_estimate(const hypofab_index_tests *index, int n_tests,
+                                     const hypofab_laboratory_test *tests, hypofab_direct_estimate *estimate);
 
 /** Two points of a compression curve: mean pressure, void ratio, and compression index -de/dln p there. */
 typedef struct compression_points {
