@@ -14,10 +14,12 @@ struct hypofab_calibration {
   char *path;
   deck_calibration *given;
   deck_unit unit;
-  unsigned *order;                /**< entry of the file that test number i is */
-  hypofab_laboratory_test *tests; /**< given->tests_count of them */
-  double **data;                  /**< HYPOFAB_N_LAB columns of each; NULL: not measured */
-  bool estimated;                 /**< the direct estimates were asked for */
+  double parameter[HYPOFAB_MAX_PARAMETERS]; /**< those the file gives, else NaN */
+  double bound[HYPOFAB_MAX_PARAMETERS][2];  /**< likewise */
+  unsigned *order;                          /**< entry of the file that test number i is */
+  hypofab_laboratory_test *tests;           /**< given->tests_count of them */
+  double **data;                            /**< HYPOFAB_N_LAB columns of each; NULL: not measured */
+  bool estimated;                           /**< the direct estimates were asked for */
   hypofab_direct_estimate estimate;
   hypofab_free_parameter parameters[HYPOFAB_MAX_FREE];
   char (*names)[96]; /**< of the parameters */

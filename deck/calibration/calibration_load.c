@@ -48,7 +48,9 @@ static hypofab_status resolve(hypofab_calibration *c, const deck_source *source)
   c->problem.tests = c->tests;
   if (!c->order || !c->tests || !c->data) return hypofab_fail(HYPOFAB_NO_MEMORY, "%s: out of memory", c->path);
   status = sort_tests(c, source);
+  if (!status) status = calibration_resolve_model(c, source);
   for (unsigned t = 0; t < n && !status; ++t) status = calibration_resolve_test(c, source, c->order[t], t);
+  if (!status) status = calibration_resolve_start(c, source);
   if (!status) status = calibration_resolve_unknowns(c, source);
   return status ? status : try_tests(c, source);
 }

@@ -15,7 +15,13 @@ hypofab_status calibration_resolve_test(hypofab_calibration *c, const deck_sourc
 /** Read the measured columns of entry number `entry` into c->data of test number `test`; sets its n and measured. */
 hypofab_status calibration_read(hypofab_calibration *c, const deck_source *source, unsigned entry, unsigned test);
 
-/** Start, free parameters, bounds and ratios; tests are resolved. */
+/** The model, what the file gives of its parameters and their bounds, and what the material begins with. */
+hypofab_status calibration_resolve_model(hypofab_calibration *c, const deck_source *source);
+
+/** The material that the fit begins with, from parameters, direct estimates and set; ratios. Tests are resolved. */
+hypofab_status calibration_resolve_start(hypofab_calibration *c, const deck_source *source);
+
+/** Free parameters and their bounds, options of the fit; the start is resolved. */
 hypofab_status calibration_resolve_unknowns(hypofab_calibration *c, const deck_source *source);
 
 /** Friction angle that K0 = 1 - sin(phi_c) of an oedometer test without a K0 of its own is taken from [deg]. */

@@ -7,6 +7,8 @@
 #define OPTIONAL_STRICT (CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT)
 #define TEXT(key, structure, member) \
   CYAML_FIELD_STRING_PTR(key, CYAML_FLAG_POINTER, structure, member, 1, CYAML_UNLIMITED)
+#define NAME(key, structure, member) \
+  CYAML_FIELD_STRING_PTR(key, OPTIONAL_POINTER, structure, member, 1, CYAML_UNLIMITED)
 #define NUMBER(key, structure, member) CYAML_FIELD_FLOAT_PTR(key, OPTIONAL, structure, member)
 #define COUNT(key, structure, member) CYAML_FIELD_UINT_PTR(key, OPTIONAL, structure, member)
 #define CHOICE(key, structure, member, names) \
@@ -71,16 +73,6 @@ static const cyaml_schema_field_t test_fields[] = {
     CYAML_FIELD_END};
 static const cyaml_schema_value_t test_value = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, deck_lab_test, test_fields)};
 
-/* Those parameters that can be free, at their places in hypofab_material. */
-#define BOUNDS(index, name) PAIR(name, deck_bounds, pair[index])
-static const cyaml_schema_field_t bounds_fields[] = {
-    BOUNDS(0, "phi_c"), BOUNDS(2, "h_s"),     BOUNDS(3, "n"),    BOUNDS(4, "e_d0"), BOUNDS(5, "e_c0"),
-    BOUNDS(6, "e_i0"),  BOUNDS(7, "alpha"),   BOUNDS(8, "beta"), BOUNDS(9, "m_R"),  BOUNDS(10, "m_T"),
-    BOUNDS(11, "R"),    BOUNDS(12, "beta_r"), BOUNDS(13, "chi"), CYAML_FIELD_END};
-
-static const cyaml_schema_field_t ratio_fields[] = {NUMBER("e_d0", deck_ratios, e_d0),
-                                                    NUMBER("e_i0", deck_ratios, e_i0), CYAML_FIELD_END};
-
 static const cyaml_schema_field_t index_fields[] = {NUMBER("repose", deck_index_tests, repose),
                                                     NUMBER("e_min", deck_index_tests, e_min),
                                                     NUMBER("e_max", deck_index_tests, e_max), CYAML_FIELD_END};
@@ -88,14 +80,16 @@ static const cyaml_schema_field_t index_fields[] = {NUMBER("repose", deck_index_
 static const cyaml_schema_field_t calibration_fields[] = {
     TEXT("calibration", deck_calibration, title),
     CHOICE("unit", deck_calibration, unit, unit_names),
-    CYAML_FIELD_STRING_PTR("sand", OPTIONAL_POINTER, deck_calibration, sand, 1, CYAML_UNLIMITED),
+    NAME("model", deck_calibration, choice.model),
+    NAME("sand", deck_calibration, choice.sand),
+    NAME("set", deck_calibration, choice.set),
     CHOICE("estimate", deck_calibration, estimate, boolean_names),
     CYAML_FIELD_MAPPING_PTR("index_tests", OPTIONAL_POINTER, deck_calibration, index_tests, index_fields),
-    CYAML_FIELD_MAPPING_PTR("parameters", OPTIONAL_POINTER, deck_calibration, parameters, deck_parameter_fields),
+    CYAML_FIELD_IGNORE("parameters", OPTIONAL), /* as bounds and ratios: deck/source/numbers.h */
     CHOICE("intergranular", deck_calibration, intergranular, boolean_names),
     CYAML_FIELD_SEQUENCE("free", CYAML_FLAG_POINTER, deck_calibration, free, &name_value, 0, CYAML_UNLIMITED),
-    CYAML_FIELD_MAPPING_PTR("bounds", OPTIONAL_POINTER, deck_calibration, bounds, bounds_fields),
-    CYAML_FIELD_MAPPING_PTR("ratios", OPTIONAL_POINTER, deck_calibration, ratios, ratio_fields),
+    CYAML_FIELD_IGNORE("bounds", OPTIONAL),
+    CYAML_FIELD_IGNORE("ratios", OPTIONAL),
     CYAML_FIELD_SEQUENCE("tests", CYAML_FLAG_POINTER, deck_calibration, tests, &test_value, 1, CYAML_UNLIMITED),
     COUNT("starts", deck_calibration, starts),
     COUNT("max_iterations", deck_calibration, max_iterations),

@@ -39,31 +39,20 @@ typedef struct deck_lab_test {
   unsigned *points;
 } deck_lab_test;
 
-/** Bounds by parameter, in the order of hypofab_material. */
-typedef struct deck_bounds {
-  double *pair[HYPOFAB_MAX_PARAMETERS];
-} deck_bounds;
-
-typedef struct deck_ratios {
-  double *e_d0, *e_i0;
-} deck_ratios;
-
 typedef struct deck_index_tests {
   double *repose, *e_min, *e_max;
 } deck_index_tests;
 
+/** `parameters`, `bounds` and `ratios` are read once the model is known: deck/source/numbers.h. */
 typedef struct deck_calibration {
   char *title;
   int *unit;
-  char *sand;
+  deck_choice choice;
   int *estimate;
   deck_index_tests *index_tests;
-  deck_parameters *parameters;
   int *intergranular;
   char **free;
   unsigned free_count;
-  deck_bounds *bounds;
-  deck_ratios *ratios;
   deck_lab_test *tests;
   unsigned tests_count;
   unsigned *starts, *max_iterations, *threads;

@@ -73,7 +73,9 @@ static void write_material(const hypofab_calibration *c, FILE *out) {
   const hypofab_model *model = c->result.material.model;
   const double *value = c->result.material.value;
   hypofab_parameter_info info;
-  fputs("\n## Material\n\n```yaml\nmaterials:\n  - name: calibrated\n    parameters:\n", out);
+  fputs("\n## Material\n\n```yaml\nmaterials:\n  - name: calibrated\n", out);
+  if (model != hypofab_model_at(0)) fprintf(out, "    model: %s\n", hypofab_model_describe(model)->name);
+  fputs("    parameters:\n", out);
   for (int i = 0; i < hypofab_model_describe(model)->n_parameters; ++i)
     if (value[i] != 0.0 && !hypofab_model_parameter(model, i, &info))
       fprintf(out, "      %s: %.7g\n", info.name, value[i]);

@@ -136,6 +136,10 @@ hypofab_status study_resolve_delta(hypofab_study *study, const deck_source *sour
                        "answer)",
                        expected_source);
   if (!given) return HYPOFAB_OK;
+  if (hypofab_model_describe(material->model)->memory < 0)
+    return deck_refuse(source, HYPOFAB_BAD_FILE, deck_key_format("states[%u].delta", index),
+                       "model '%s' has no intergranular strain, expected no 'delta'",
+                       hypofab_model_describe(material->model)->name);
   hypofab_status status = check_source(source, index, given);
   /* A material whose intergranular strain is switched off keeps delta = 0 whatever the deck says. */
   if (status || !intergranular || given->zero) return status;

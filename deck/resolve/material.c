@@ -1,9 +1,11 @@
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
 #include "deck/resolve/resolve.h"
+#include "deck/source/numbers.h"
 
 double deck_kpa(deck_unit unit) { return unit == DECK_PA ? 1e3 : unit == DECK_MPA ? 1e-3 : 1.0; }
 
@@ -14,43 +16,66 @@ static void convert_stresses(hypofab_material *material, double factor) {
     if (strcmp(info.unit, "stress") == 0) material->value[i] *= factor;
 }
 
-hypofab_status deck_sand(const char *name, deck_unit unit, hypofab_material *material) {
-  const hypofab_status status = hypofab_material_built_in(name, material);
-  if (!status) convert_stresses(material, deck_kpa(unit)); /* built-in sands are in kPa */
-  return status;
+static hypofab_status refuse_model(const deck_source *source, deck_key key, const char *name) {
+  char known[256] = "";
+  size_t used = 0;
+  const hypofab_model *model;
+  for (int i = 0; (model = hypofab_model_at(i)) && used < sizeof known; ++i)
+    used +=
+        (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", hypofab_model_describe(model)->name);
+  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "there is no model '%s', expected one of %s", name, known);
+}
+
+hypofab_status deck_start_material(const deck_source *source, deck_key at, const deck_choice *given, deck_unit unit,
+                                   hypofab_material *material) {
+  const char *set = given->set ? given->set : given->sand;
+  const deck_key key = deck_key_of(at, given->set ? "set" : "sand");
+  const hypofab_model *model = given->model ? hypofab_model_find(given->model) : hypofab_model_at(0);
+  if (given->set && given->sand)
+    return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'sand' is given too, expected one of them");
+  if (!model) return refuse_model(source, deck_key_of(at, "model"), given->model);
+  hypofab_material_start(model, material);
+  const hypofab_status status = set ? hypofab_material_built_in(set, material) : HYPOFAB_OK;
+  if (status) return deck_refuse(source, status, key, "%s", hypofab_last_message());
+  if (given->model && material->model != model)
+    return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' belongs to model '%s', expected a set of '%s'", set,
+                       hypofab_model_describe(material->model)->name, given->model);
+  convert_stresses(material, deck_kpa(unit)); /* descriptions are in kPa */
+  return HYPOFAB_OK;
+}
+
+hypofab_status deck_read_parameters(const deck_source *source, deck_key at, const hypofab_model *model,
+                                    double value[HYPOFAB_MAX_PARAMETERS]) {
+  for (int i = 0; i < HYPOFAB_MAX_PARAMETERS; ++i) value[i] = NAN;
+  return deck_read_numbers(source, deck_key_of(at, "parameters"), deck_parameters, model, value);
+}
+
+/* The key `parameters`, or where the deck has none, what it would stand in. */
+static deck_key parameters_key(const deck_source *source, deck_key at) {
+  const deck_key key = deck_key_of(at, "parameters");
+  return deck_node(source, key.text) ? key : at;
 }
 
 /* Without a built-in set every parameter that has no usual value must be the deck's own, and those of the intergranular
  * strain unless it is switched off: a start that nobody chose would decide the answer. */
-static hypofab_status start_without_set(const deck_source *source, unsigned index, const deck_material *given,
-                                        bool intergranular, hypofab_material *material) {
-  const hypofab_model *model = hypofab_model_at(0);
-  const int n = hypofab_model_describe(model)->n_parameters;
+static hypofab_status check_complete(const deck_source *source, deck_key at, const hypofab_model *model,
+                                     bool intergranular, const double *value) {
   hypofab_parameter_info info;
-  hypofab_material_start(model, material);
-  for (int i = 0; i < n && !hypofab_model_parameter(model, i, &info); ++i) {
-    const bool is_needed = isnan(info.start) || (intergranular && info.role == HYPOFAB_OF_MEMORY);
-    if (!is_needed || (given->parameters && given->parameters->value[i])) continue;
-    return deck_refuse(source, HYPOFAB_BAD_MATERIAL,
-                       deck_key_format("materials[%u]%s", index, given->parameters ? ".parameters" : ""),
-                       "'%s' is missing (%s), expected a value or a built-in sand (key 'sand') to take it from",
-                       info.name, info.description);
-  }
+  for (int i = 0; i < hypofab_model_describe(model)->n_parameters; ++i)
+    if (!hypofab_model_parameter(model, i, &info) && isnan(value[i]) &&
+        (isnan(info.start) || (intergranular && info.role == HYPOFAB_OF_MEMORY)))
+      return deck_refuse(source, HYPOFAB_BAD_MATERIAL, parameters_key(source, at),
+                         "'%s' is missing (%s), expected a value or a built-in sand (key 'sand') to take it from",
+                         info.name, info.description);
   return HYPOFAB_OK;
 }
 
-static void override_parameters(const deck_parameters *given, hypofab_material *material) {
-  for (int i = 0; given && i < HYPOFAB_MAX_PARAMETERS; ++i)
-    if (given->value[i]) material->value[i] = *given->value[i];
-}
-
 /* The key that an inadmissible material is refused for: the parameter at fault, where the deck gives it. */
-static deck_key blamed_key(unsigned index, const hypofab_material *material, const deck_parameters *given) {
+static deck_key blamed_key(const deck_source *source, deck_key at) {
   const hypofab_subject *subject = hypofab_last_subject();
-  const int i =
-      subject->about == HYPOFAB_ABOUT_PARAMETER ? hypofab_model_parameter_find(material->model, subject->name) : -1;
-  if (i >= 0 && given && given->value[i]) return deck_key_format("materials[%u].parameters.%s", index, subject->name);
-  return deck_key_format("materials[%u]%s", index, given ? ".parameters" : "");
+  const deck_key one = deck_key_of(deck_key_of(at, "parameters"), subject->name);
+  const bool is_given = subject->about == HYPOFAB_ABOUT_PARAMETER && deck_node(source, one.text);
+  return is_given ? one : parameters_key(source, at);
 }
 
 const char *study_memory_switch(const hypofab_material *material, double *value) {
@@ -67,32 +92,27 @@ const char *study_memory_switch(const hypofab_material *material, double *value)
 static hypofab_status resolve_material(const hypofab_study *study, const deck_source *source, unsigned index,
                                        hypofab_material *material) {
   const deck_material *given = &study->deck->materials[index];
+  const deck_key at = deck_key_format("materials[%u]", index);
   const bool intergranular = !given->intergranular || *given->intergranular;
-  hypofab_status status;
-  if (given->sand) {
-    status = deck_sand(given->sand, study->unit, material);
-    if (status == HYPOFAB_BAD_MATERIAL)
-      return deck_refuse(source, status, deck_key_format("materials[%u].sand", index), "%s", hypofab_last_message());
-    if (status) return status;
-  } else {
-    status = start_without_set(source, index, given, intergranular, material);
-    if (status) return status;
-  }
-  override_parameters(given->parameters, material);
+  double value[HYPOFAB_MAX_PARAMETERS];
+  hypofab_status status = deck_start_material(source, at, &given->choice, study->unit, material);
+  if (!status) status = deck_read_parameters(source, at, material->model, value);
+  if (!status && !given->choice.set && !given->choice.sand)
+    status = check_complete(source, at, material->model, intergranular, value);
+  if (status) return status;
+  for (int i = 0; i < HYPOFAB_MAX_PARAMETERS; ++i)
+    if (!isnan(value[i])) material->value[i] = value[i];
   if (!intergranular) hypofab_memory_off(material);
-  double value;
+  double of_switch;
   if (given->intergranular && intergranular && !study_has_intergranular(material)) {
-    const char *name = study_memory_switch(material, &value);
-    return deck_refuse(
-        source, HYPOFAB_BAD_MATERIAL, deck_key_format("materials[%u].intergranular", index),
-        "true, but %s is %g, which switches it off, expected parameters of an intergranular strain under "
-        "'parameters'",
-        name, value);
+    const char *name = study_memory_switch(material, &of_switch);
+    return deck_refuse(source, HYPOFAB_BAD_MATERIAL, deck_key_of(at, "intergranular"),
+                       "true, but %s is %g, which switches it off, expected parameters of an intergranular strain "
+                       "under 'parameters'",
+                       name, of_switch);
   }
   status = hypofab_material_check(material);
-  if (status)
-    return deck_refuse(source, status, blamed_key(index, material, given->parameters), "%s", hypofab_last_message());
-  return HYPOFAB_OK;
+  return status ? deck_refuse(source, status, blamed_key(source, at), "%s", hypofab_last_message()) : HYPOFAB_OK;
 }
 
 hypofab_status study_resolve_materials(hypofab_study *study, const deck_source *source) {

@@ -15,8 +15,20 @@ hypofab_status study_resolve_states(hypofab_study *study, const deck_source *sou
 hypofab_status study_resolve_tests(hypofab_study *study, const deck_source *source);
 hypofab_status study_resolve_envelopes(hypofab_study *study, const deck_source *source);
 
-/** Parameters of a built-in sand in a deck's unit of stress; HYPOFAB_BAD_MATERIAL. */
-hypofab_status deck_sand(const char *name, deck_unit unit, hypofab_material *material);
+/**
+ * @brief The material that the keys `model` and `set` (or `sand`) at a place begin with.
+ * @param at       of the mapping with these keys
+ * @param material filled, in the file's unit of stress: the built-in set, or as hypofab_material_start
+ */
+hypofab_status deck_start_material(const deck_source *source, deck_key at, const deck_choice *given, deck_unit unit,
+                                   hypofab_material *material);
+
+/** The `parameters` at a place, in the order of the model; NaN where the file gives none. */
+hypofab_status deck_read_parameters(const deck_source *source, deck_key at, const hypofab_model *model,
+                                    double value[HYPOFAB_MAX_PARAMETERS]);
+
+/** The parameter that switches the intergranular strain of a material on or off, for messages. @param value set */
+const char *study_memory_switch(const hypofab_material *material, double *value);
 
 /** One kPa in a deck's unit of stress. */
 double deck_kpa(deck_unit unit);

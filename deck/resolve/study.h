@@ -103,9 +103,6 @@ static inline void study_delta(const hypofab_study *study, const study_state *st
   for (int i = 0; i < 6; ++i) delta[i] = place < 0 ? 0.0 : state->initial.variable[place + i];
 }
 
-/** The parameter that switches the intergranular strain of a material on or off, for messages. @param value set */
-const char *study_memory_switch(const hypofab_material *material, double *value);
-
 /** Has a material intergranular strain, and is it on? */
 static inline bool study_has_intergranular(const hypofab_material *material) {
   return hypofab_memory_size(material) > 0.0;

@@ -178,6 +178,7 @@ static hypofab_status check_value(const deck_source *source, const yaml_node_t *
     case CYAML_SEQUENCE_FIXED:
       if (node->type == YAML_SEQUENCE_NODE) return check_sequence(source, node, schema, key);
       break;
+    case CYAML_IGNORE: return HYPOFAB_OK; /* deck_read_numbers */
     default:
       if (node->type == YAML_SCALAR_NODE && is_scalar_of(schema, node)) return HYPOFAB_OK;
   }
@@ -187,4 +188,9 @@ static hypofab_status check_value(const deck_source *source, const yaml_node_t *
 hypofab_status deck_check_form(const deck_source *source, const cyaml_schema_value_t *schema) {
   const deck_key whole = deck_key_format("%s", "");
   return check_value(source, yaml_document_get_root_node((yaml_document_t *)&source->document), schema, &whole);
+}
+
+hypofab_status deck_check_form_of(const deck_source *source, deck_key key, const cyaml_schema_value_t *schema) {
+  const yaml_node_t *node = deck_node(source, key.text);
+  return node ? check_value(source, node, schema, &key) : HYPOFAB_OK;
 }

@@ -18,4 +18,7 @@
  */
 hypofab_status deck_check_form(const deck_source *source, const cyaml_schema_value_t *schema);
 
+/** The same for the value of one key, where the deck gives it. */
+hypofab_status deck_check_form_of(const deck_source *source, deck_key key, const cyaml_schema_value_t *schema);
+
 #endif

@@ -4,10 +4,16 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "deck/source/numbers.h"
 #include "deck/source/schema.h"
 
 /* Texts that name something of the library: the key, and name number index (NULL past the last). */
-static const char *sand_name(int index) {
+static const char *model_name(int index) {
+  const hypofab_model *model = hypofab_model_at(index);
+  return model ? hypofab_model_describe(model)->name : NULL;
+}
+
+static const char *set_name(int index) {
   const hypofab_model *model;
   for (int i = 0; (model = hypofab_model_at(i)); ++i) {
     const int n = hypofab_model_set_count(model);
@@ -18,13 +24,33 @@ static const char *sand_name(int index) {
   return NULL;
 }
 
-static const char *quantity_name(int index) { return hypofab_quantity_name((hypofab_quantity)index); }
+/* Those that every model has, then those of single ones. */
+static const char *quantity_name(int index) {
+  static _Thread_local char text[HYPOFAB_QUANTITY_NAME_SIZE];
+  const hypofab_model *model;
+  const char *name;
+  if (index < HYPOFAB_FIRST_NUMBER) return hypofab_quantity_name((hypofab_quantity)index);
+  index -= HYPOFAB_FIRST_NUMBER;
+  for (int i = 0; (model = hypofab_model_at(i)); ++i)
+    for (int k = 0; k < HYPOFAB_MAX_NUMBERS; ++k) {
+      name = hypofab_model_quantity_name(model, (hypofab_quantity)(HYPOFAB_FIRST_NUMBER + k), text);
+      if (name && index-- == 0) return name;
+    }
+  return NULL;
+}
 
 static const struct known_names {
   const char *key;
   const char *(*name)(int index);
-} known[] = {
-    {"sand", sand_name}, {"preset", hypofab_preset_name}, {"quantity", quantity_name}, {"weight", hypofab_weight_name}};
+} known[] = {{"model", model_name},           {"sand", set_name},          {"set", set_name},
+             {"preset", hypofab_preset_name}, {"quantity", quantity_name}, {"weight", hypofab_weight_name}};
+
+/* Mappings whose keys models name. */
+static const struct numbers {
+  const char *key;
+  deck_numbers_of *keys_of;
+} numbers[] = {
+    {"parameters", deck_parameters}, {"bounds", deck_bounds}, {"ratios", deck_ratios}, {"variables", deck_variables}};
 
 static json_t *form_of(const cyaml_schema_value_t *schema, const char *key);
 
@@ -57,6 +83,25 @@ static json_t *mapping_form(const cyaml_schema_value_t *schema) {
                    "additionalProperties", 0);
 }
 
+static json_t *number_form(int n) {
+  if (n == 1) return json_pack("{s:s}", "type", "number");
+  return json_pack("{s:s,s:{s:s},s:i,s:i}", "type", "array", "items", "type", "number", "minItems", n, "maxItems", n);
+}
+
+/* The keys of all models: which one it is stands elsewhere in the file. */
+static json_t *numbers_form(const char *key) {
+  json_t *properties = json_object();
+  const struct numbers *mapping = numbers;
+  while (strcmp(mapping->key, key) != 0) ++mapping;
+  const hypofab_model *model;
+  for (int i = 0; (model = hypofab_model_at(i)); ++i) {
+    deck_numbers keys[DECK_MOST_NUMBERS];
+    const int count = mapping->keys_of(model, keys);
+    for (int k = 0; k < count; ++k) json_object_set_new(properties, keys[k].name, number_form(keys[k].n));
+  }
+  return json_pack("{s:s,s:o,s:b}", "type", "object", "properties", properties, "additionalProperties", 0);
+}
+
 static json_t *list_form(const cyaml_schema_value_t *schema, const char *key) {
   json_t *form = json_pack("{s:s,s:o,s:I}", "type", "array", "items", form_of(schema->sequence.entry, key), "minItems",
                            (json_int_t)schema->sequence.min);
@@ -72,6 +117,7 @@ static json_t *form_of(const cyaml_schema_value_t *schema, const char *key) {
     case CYAML_STRING: return text_form(key);
     case CYAML_ENUM: return choice_form(schema);
     case CYAML_MAPPING: return mapping_form(schema);
+    case CYAML_IGNORE: return numbers_form(key);
     default: return list_form(schema, key);
   }
 }

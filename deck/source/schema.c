@@ -35,17 +35,14 @@ static const cyaml_strval_t boolean_names[] = {{"false", 0}, {"true", 1}};
 
 static const cyaml_schema_value_t number = {CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAULT, double)};
 
-#define PARAMETER(index, name) CYAML_FIELD_FLOAT_PTR(name, OPTIONAL, deck_parameters, value[index])
-const cyaml_schema_field_t deck_parameter_fields[] = {
-    PARAMETER(0, "phi_c"), PARAMETER(1, "p_t"),  PARAMETER(2, "h_s"),     PARAMETER(3, "n"),    PARAMETER(4, "e_d0"),
-    PARAMETER(5, "e_c0"),  PARAMETER(6, "e_i0"), PARAMETER(7, "alpha"),   PARAMETER(8, "beta"), PARAMETER(9, "m_R"),
-    PARAMETER(10, "m_T"),  PARAMETER(11, "R"),   PARAMETER(12, "beta_r"), PARAMETER(13, "chi"), PARAMETER(14, "K_w"),
-    PARAMETER(15, "e_0"),  CYAML_FIELD_END};
-
 static const cyaml_schema_field_t material_fields[] = {
-    TEXT("name", deck_material, name), OPTIONAL_TEXT("sand", deck_material, sand),
-    CYAML_FIELD_MAPPING_PTR("parameters", OPTIONAL_POINTER, deck_material, parameters, deck_parameter_fields),
-    CHOICE("intergranular", deck_material, intergranular, boolean_names), CYAML_FIELD_END};
+    TEXT("name", deck_material, name),
+    OPTIONAL_TEXT("model", deck_material, choice.model),
+    OPTIONAL_TEXT("sand", deck_material, choice.sand),
+    OPTIONAL_TEXT("set", deck_material, choice.set),
+    CYAML_FIELD_IGNORE("parameters", OPTIONAL), /* numbers.h */
+    CHOICE("intergranular", deck_material, intergranular, boolean_names),
+    CYAML_FIELD_END};
 
 static const cyaml_schema_field_t columns_fields[] = {
     OPTIONAL_TEXT("id1", deck_columns, id1), OPTIONAL_TEXT("id2", deck_columns, id2),
@@ -71,6 +68,7 @@ static const cyaml_schema_field_t state_fields[] = {
     SIX_NUMBERS("stress", deck_state, stress),
     CYAML_FIELD_FLOAT_PTR("p", OPTIONAL, deck_state, p),
     CYAML_FIELD_FLOAT("void_ratio", CYAML_FLAG_DEFAULT, deck_state, void_ratio),
+    CYAML_FIELD_IGNORE("variables", OPTIONAL), /* numbers.h */
     CYAML_FIELD_MAPPING_PTR("delta", OPTIONAL_POINTER, deck_state, delta, delta_fields),
     CYAML_FIELD_END};
 

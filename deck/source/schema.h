@@ -19,15 +19,15 @@ typedef enum deck_unit { DECK_PA, DECK_KPA, DECK_MPA } deck_unit;
 /** Sign of stress, strain and intergranular strain in a deck and in its result files. */
 typedef enum deck_sign { DECK_TENSION_POSITIVE, DECK_COMPRESSION_POSITIVE } deck_sign;
 
-/** Parameters by name, in the order of hypofab_material. */
-typedef struct deck_parameters {
-  double *value[HYPOFAB_MAX_PARAMETERS];
-} deck_parameters;
+/** A model and a built-in parameter set, either of which may be left out; sand is an older name for set. */
+typedef struct deck_choice {
+  char *model, *sand, *set;
+} deck_choice;
 
+/** `parameters` of materials and `variables` of states are read once the model is known: numbers.h. */
 typedef struct deck_material {
   char *name;
-  char *sand;
-  deck_parameters *parameters;
+  deck_choice choice;
   int *intergranular;
 } deck_material;
 
@@ -198,9 +198,6 @@ typedef struct deck {
   deck_envelope *envelopes;
   unsigned envelopes_count;
 } deck;
-
-/** The keys of deck_parameters: the parameters of the model by name. */
-extern const cyaml_schema_field_t deck_parameter_fields[];
 
 /** Schema of a whole deck, for libcyaml and for deck_check_form (form.h). */
 const cyaml_schema_value_t *deck_schema(void);

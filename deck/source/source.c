@@ -17,6 +17,10 @@ deck_key deck_key_format(const char *format, ...) {
   return key;
 }
 
+deck_key deck_key_of(deck_key around, const char *name) {
+  return deck_key_format("%s%s%s", around.text, *around.text ? "." : "", name);
+}
+
 /* The whole file in memory, so that the two parsers that read it see the same text. */
 static hypofab_status read_text(const char *path, char **text, size_t *length) {
   FILE *file = fopen(path, "rb");
@@ -128,7 +132,14 @@ static const yaml_node_pair_t *find_pair(yaml_document_t *document, const yaml_n
   return NULL;
 }
 
-size_t deck_line(const deck_source *source, const char *key) {
+/* Where a key leads to: the nearest node around it that the deck has. */
+typedef struct found {
+  const yaml_node_t *node;
+  size_t line;
+  int is_whole; /* the node is that of the key */
+} found;
+
+static found find(const deck_source *source, const char *key) {
   yaml_document_t *document = (yaml_document_t *)&source->document; /* libyaml's getters are not const */
   const yaml_node_t *node = yaml_document_get_root_node(document);
   size_t line = node->start_mark.line + 1;
@@ -152,7 +163,14 @@ size_t deck_line(const deck_source *source, const char *key) {
       key += length;
     }
   }
-  return line;
+  return (found){node, line, *key == '\0'};
+}
+
+size_t deck_line(const deck_source *source, const char *key) { return find(source, key).line; }
+
+const yaml_node_t *deck_node(const deck_source *source, const char *key) {
+  const found one = find(source, key);
+  return one.is_whole ? one.node : NULL;
 }
 
 hypofab_status deck_refuse(const deck_source *source, hypofab_status status, deck_key key, const char *format, ...) {

@@ -25,6 +25,9 @@ typedef struct deck_key {
   char text[256];
 } deck_key;
 
+/** The key of this name inside another one. */
+deck_key deck_key_of(deck_key around, const char *name);
+
 /** Format a key as printf does. */
 deck_key deck_key_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
@@ -51,6 +54,9 @@ char *deck_path_beside(const deck_source *source, const char *path);
 
 /** Line (from 1) of a key, or of the nearest mapping or sequence around it when the deck does not give it. */
 size_t deck_line(const deck_source *source, const char *key);
+
+/** The value of a key; NULL when the deck does not give it. */
+const yaml_node_t *deck_node(const deck_source *source, const char *key);
 
 /**
  * @brief Refuse a deck: keep the message "FILE:LINE: KEY: ..." for hypofab_last_message(), the key as its subject.

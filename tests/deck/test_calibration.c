@@ -73,7 +73,7 @@ static void wrong_files_are_refused(void **state) {
       {"name: two", "name: one", ":13: tests[1].name: 'one' is also the name of tests[0]"},
       {"use: check", "use: check\n    free_void_ratio: [0.6, 0.9]", ":18: tests[1].free_void_ratio: given for a test"},
       {"max_iterations: 5", "max_iterations: 0", ":18: max_iterations: 0, expected 1 to 10000"},
-      {"max_iterations: 5", "ratios: {e_i0: 0.9}", ":18: ratios.e_i0: 0.9, expected 1 or more times e_c0"},
+      {"max_iterations: 5", "ratios: {e_i0: 0.9}", ":18: ratios.e_i0: 0.9 times e_c0, but e_c0 = "},
       {"sand: hochstetten_1999\n", "", "nothing tells a start of "},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
