@@ -9,6 +9,9 @@ import numpy as np
 
 from hypofab.errors import Status, error_of
 
+core: ModuleType
+"""The extension: python/extension/_core.pyf."""
+
 try:
     from hypofab import _core as core
 except ImportError as failure:
@@ -17,9 +20,6 @@ except ImportError as failure:
     ) from failure
 
 T = TypeVar("T")
-
-core: ModuleType
-"""The extension: python/extension/_core.pyf."""
 
 
 def text(raw: bytes) -> str:

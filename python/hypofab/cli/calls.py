@@ -71,8 +71,9 @@ def _words(options: Mapping[str, object]) -> list[str]:
         if value is True:
             words.append(option)
         elif value is not None and value is not False:
-            several = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str)
-            words.append(f"{option}={','.join(map(str, value)) if several else value}")
+            if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str):
+                value = ",".join(map(str, value))
+            words.append(f"{option}={value}")
     return words
 
 

@@ -18,8 +18,10 @@ from hypofab.model.materials import sands
 from hypofab.results.drained import DrainedTest
 from hypofab.results.tables import ResultError
 
-FIELDS = ("material", "test", "kind", "sand", "start", "void_ratio", "void_ratio_fitted", "quantity", "rows")
-FIELDS += ("r2", "rms", "largest", "covered", "status")
+FIELDS = (
+    *("material", "test", "kind", "sand", "start", "void_ratio", "void_ratio_fitted", "quantity", "rows"),
+    *("r2", "rms", "largest", "covered", "status"),
+)
 """Columns of errors.csv."""
 
 

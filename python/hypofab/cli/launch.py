@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 from hypofab.results.tables import ResultError
 
@@ -34,7 +35,7 @@ def run(*arguments: str | Path, accept: tuple[int, ...] = (0,)) -> str:
     return done.stdout
 
 
-def run_json(*arguments: str | Path) -> dict | list:
+def run_json(*arguments: str | Path) -> Any:  # noqa: ANN401 - an object, or a list of them
     """The JSON that a command with --json prints."""
     return json.loads(run(*arguments, "--json"))
 

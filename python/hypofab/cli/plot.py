@@ -2,6 +2,7 @@
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from hypofab.cli import fabric_files, sweep
 from hypofab.cli.saving import labelled, save
@@ -69,7 +70,7 @@ def _draw_folder(directory: Path, options: argparse.Namespace) -> None:
 def _draw_tests(directory: Path, options: argparse.Namespace) -> None:
     run = read_run(directory)
     zoom = None if options.zoom is None else options.zoom / 100
-    data = {"measured": read_measured({label or path.name: path for label, path in options.measured})}
+    data: dict[str, Any] = {"measured": read_measured({label or path.name: path for label, path in options.measured})}
     positive = options.compression_positive
     save(element_tests.stress_strain(run, zoom=zoom, **data), directory / "stress_strain")
     save(element_tests.volumetric(run, compression_positive=positive, **data), directory / "volumetric")

@@ -49,7 +49,8 @@ def _executor(options: argparse.Namespace) -> Iterator[tuple[Executor | None, bo
     if options.scheduler and options.executor != "dask":
         raise InputError("--scheduler has a meaning with --executor dask alone", Status.BAD_ARGUMENT)
     with ExitStack() as stack:
-        executor, serves = None, False
+        executor: Executor | None = None
+        serves = False
         if options.executor == "threads":
             executor = stack.enter_context(ThreadPoolExecutor(options.workers or processors()))
         elif options.executor == "dask":
@@ -82,7 +83,7 @@ def _mpi(stack: ExitStack) -> Executor | None:
 
 def report(result: SweepResult) -> None:
     """How many runs there are, and why some failed."""
-    print(f"{result.folder / 'results.parquet'}: {len(result)} runs, {int(result.done.sum())} done")
+    print(f"{(result.folder or Path()) / 'results.parquet'}: {len(result)} runs, {int(result.done.sum())} done")
     reasons = sorted(result.failures().items(), key=lambda item: -item[1])
     for reason, count in reasons[:10]:
         print(f"  {count} x {reason}")

@@ -45,6 +45,14 @@ Columns = Mapping[str, Callable[[int, int], np.ndarray]]
 """For each column a function that gives its rows from `begin` to `end`."""
 
 
+def _of_field(array: np.ndarray, field: str, part: tuple) -> Callable[[int, int], np.ndarray]:
+    return lambda begin, end: array[begin:end][field][part]
+
+
+def _of_vector(array: np.ndarray, i: int) -> Callable[[int, int], np.ndarray]:
+    return lambda begin, end: array[begin:end, i]
+
+
 def _columns_of_array(name: str, array: np.ndarray) -> dict[str, Callable[[int, int], np.ndarray]]:
     """Columns of an array, or of anything that is sliced like one: records, a vector per row, a number per row."""
     if array.dtype.names:
@@ -56,13 +64,13 @@ def _columns_of_array(name: str, array: np.ndarray) -> dict[str, Callable[[int, 
             names = VECTORS.get(field, tuple(f"{field}[{i}]" for i in range(3))) if shape else (field,)
             for i, column in enumerate(names):
                 part = (slice(None), i) if shape else (slice(None),)
-                columns[column] = lambda begin, end, field=field, part=part: array[begin:end][field][part]
+                columns[column] = _of_field(array, field, part)
         return columns
     if array.ndim == 1:
         return {name: lambda begin, end: array[begin:end]}
     if array.ndim == 2 and array.shape[1] == 3:
         names = VECTORS.get(name, tuple(f"{name}[{i}]" for i in range(3)))
-        return {column: lambda begin, end, i=i: array[begin:end, i] for i, column in enumerate(names)}
+        return {column: _of_vector(array, i) for i, column in enumerate(names)}
     raise ContactFileError(f"{name}: an array of shape {array.shape}; expected one number or three per contact")
 
 

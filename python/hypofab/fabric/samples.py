@@ -181,13 +181,17 @@ def reading(
     )
     if len(separator) > 1:
         raise InputError(f"separator = {separator!r}, expected one character", Status.BAD_ARGUMENT)
-    file = "" if particles is None or isinstance(particles, int | np.integer) else os.fspath(particles)
+    file, count = "", 0
+    if isinstance(particles, int | np.integer):
+        count = int(particles)
+    elif particles is not None:
+        file = os.fspath(particles)
     texts = [*(str(named.get(name, "")) for name in _COLUMNS), kind, file, more_columns, particle_columns, wall_ids]
     return (
         b"".join(os.fsencode(one) + b"\x1f" for one in texts),
         ord(separator) if separator else 0,
         choices,
-        0 if file or particles is None else int(particles),
+        count,
     )
 
 
@@ -200,7 +204,7 @@ def fabric_of_tensor(tensor: ArrayLike) -> Fabric:
 
 def weights() -> Mapping[str, str]:
     """Weight functions f(a) by name, with their formulas."""
-    found = {}
+    found: dict[str, str] = {}
     while True:
         name, formula = map(text, core.weight(len(found)))
         if not name:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib import rc_context
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -85,7 +86,7 @@ def residuals(result: CalibrationResult) -> Figure:
             axes.set(xlabel="row compared", ylabel="offset [% of range]")
         for axes in grid[len(result.tests) :]:
             axes.set_axis_off()
-        handles = {}
+        handles: dict[str, Artist] = {}
         for axes in grid[: len(result.tests)]:
             handles |= {label: handle for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)}
         figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=3)

@@ -45,8 +45,8 @@ def rates(sample: Result) -> Figure:
             for row, which in enumerate(("dZ", "dA")):
                 axes = panels[row, column]
                 axes.axhline(0, color="0.4", linewidth=0.8)
-                if zones.get(mechanism):
-                    axes.axvspan(*zones[mechanism], color="0.88", zorder=0)
+                if zone := zones.get(mechanism):
+                    axes.axvspan(*zone, color="0.88", zorder=0)
                 if "response" in data:
                     axes.plot(fine, law(data["response"], mechanism, which, fine), label="fit", **FIT)
                 values = [one[mechanism][which] for one in probes]

@@ -150,7 +150,8 @@ def plot_directions(directions: Directions, label: str = "sample") -> Figure:
 def _data(measured: Measured | Mapping[str, str | Path]) -> Measured:
     """Data as columns, files read."""
     files = {label: one for label, one in measured.items() if isinstance(one, str | Path)}
-    return {label: one for label, one in measured.items() if label not in files} | read_measured(files)
+    columns = {label: one for label, one in measured.items() if not isinstance(one, str | Path)}
+    return {**columns, **read_measured(files)}
 
 
 def _run(tests: list[tuple[str, TestResult]]) -> Run:

@@ -229,9 +229,9 @@ def directional_stiffness(envelope: Envelope) -> Figure:
         else:
             axes.set_ylim(bottom=0)
         imposed = "stress" if envelope.imposes_stress else "strain"
-        reference = "intergranular strain" if to_delta else "stress"
+        other = "intergranular strain" if to_delta else "stress"
         axes.set(
-            xlabel=rf"angle between the {imposed} imposed and the {reference} [$^\circ$]",
+            xlabel=rf"angle between the {imposed} imposed and the {other} [$^\circ$]",
             ylabel=rf"stiffness $|\Delta\boldsymbol{{\sigma}}|/|\Delta\boldsymbol{{\varepsilon}}|$ [{unit}]",
             xlim=(0, 180),
         )

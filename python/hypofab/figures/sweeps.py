@@ -149,7 +149,7 @@ def _bars(axes, place: Array, height: Array, error: Array, grey: str, name: str)
 
 def figures_of(result: SweepResult, indices: Mapping[str, SobolIndices] | None = None) -> dict[str, Figure]:
     """All figures that the results have something for, by the names of their files."""
-    found = {}
+    found: dict[str, Figure] = {}
     if scalars(result):
         found |= {"scatter": scatter(result), "histograms": histograms(result)}
     found |= {f"fan_{name}": fan(result, name) for name in curves(result)}

@@ -19,7 +19,7 @@ def _bars(
     axes: Axes, index: int, count: int, values: Sequence[float], ends: Sequence[Sequence[float]], label: str
 ) -> None:
     """Estimates with intervals, one sample beside the other."""
-    values, (lower, upper) = np.asarray(values), np.asarray(ends)
+    lower, upper = np.asarray(ends)
     place = np.arange(len(values)) + (index - (count - 1) / 2) * 0.6 / count
     axes.errorbar(
         place,

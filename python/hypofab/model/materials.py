@@ -53,7 +53,7 @@ class Material(Mapping[str, float]):
     """initial void ratio; UMAT only"""
 
     @classmethod
-    def sand(cls, name: str) -> Self:
+    def sand(cls, name: str) -> "Material":
         """A built-in sand, h_s in kPa: hypofab.sands() lists them."""
         known = sands()
         if name not in known:
@@ -139,7 +139,7 @@ class Parameter:
 @cache
 def sands() -> Mapping[str, Sand]:
     """The built-in sands by name."""
-    found = {}
+    found: dict[str, Sand] = {}
     while True:
         status, numbers, name, description, source = core.parameter_set(0, len(found))
         if status:

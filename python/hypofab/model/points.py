@@ -44,7 +44,7 @@ class State:
     @classmethod
     def isotropic(cls, p: float, void_ratio: float, delta: ArrayLike = (0, 0, 0, 0, 0, 0)) -> Self:
         """A state of isotropic stress -p 1; p > 0 is compression."""
-        return cls(np.array([-p, -p, -p, 0, 0, 0]), void_ratio, delta)
+        return cls(np.array([-p, -p, -p, 0, 0, 0]), void_ratio, components(delta, "delta"))
 
     @classmethod
     def from_numbers(cls, numbers: Array) -> Self:

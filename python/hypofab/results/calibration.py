@@ -135,11 +135,11 @@ def _columns(entry: Mapping[str, list]) -> dict[str, NDArray[np.float64]]:
 
 
 def _test(entry: Mapping[str, Any]) -> LabComparison:
-    curves = ("measured", "nearest", "computed", "start")
+    curves: dict[str, Any] = {name: _columns(entry[name]) for name in ("measured", "nearest", "computed", "start")}
     rest = {key: entry[key] for key in ("name", "kind", "use", "weight", "status", "distance", "start_distance")}
     return LabComparison(
         scales={name: (item["scale"], item["log"]) for name, item in entry["quantities"].items()},
         distances=_array(entry["distances"]),
-        **{name: _columns(entry[name]) for name in curves},
+        **curves,
         **_numbers(rest),
     )

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -33,7 +34,7 @@ class Piece:
         return bool(self.data["part"][0])
 
 
-def _array(path: Path, element: ElementTree.Element, count: int | None) -> Array:
+def _array(path: Path, element: ElementTree.Element, count: int | None) -> NDArray[Any]:
     """A DataArray of so many tuples."""
     width = int(element.get("NumberOfComponents", "1"))
     kind = np.int64 if element.get("type", "").startswith("Int") else np.float64

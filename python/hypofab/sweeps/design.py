@@ -103,7 +103,7 @@ def _columns(inputs: Sequence[Input], unit: Array) -> pa.Table:
 
 def _grid(node: Node, inputs: Sequence[Input]) -> pa.Table:
     """Every combination; the last input varies fastest."""
-    shape = [len(one.values) for one in inputs]
+    shape = [len(one.values or ()) for one in inputs]
     runs = math.prod(shape)
     _check_runs(node, runs)
     places = np.unravel_index(np.arange(runs), shape)

@@ -31,6 +31,8 @@ class Input:
         """Values at probabilities in [0, 1): quantiles, or the values in equal parts."""
         if self.distribution is not None:
             return self.distribution.quantiles(probabilities)
+        if self.values is None:
+            raise TypeError(f"{self.name} takes the values of a table")
         places = np.minimum((probabilities * len(self.values)).astype(int), len(self.values) - 1)
         return [self.values[place] for place in places]
 
@@ -52,7 +54,7 @@ def _read(name: str, node: Node, deck: bool) -> Input:
         ways[1].fail(f"a second way to say how it varies, expected one of {', '.join(_WAYS)}")
     given = {"values": None, "distribution": None}
     if ways:
-        given |= _WAY[ways[0].keys[-1]](ways[0])
+        given |= _WAY[str(ways[0].keys[-1])](ways[0])
     paths = _paths(entries["path"]) if deck else ()
     if "unit" in entries:
         entries["unit"].text()  # the manifest keeps it, for figures

@@ -52,18 +52,18 @@ class Output:
         values = rows[self.quantity]
         if self.at == "rows":
             return values.tolist()
-        if self.grid is not None:
-            return crossings(rows[self.other], values, self.abscissa).tolist()
+        other: Array = rows[self.other] if self.other else values
+        if self.abscissa is not None:
+            return crossings(other, values, self.abscissa).tolist()
         if self.at == "value of":
-            return float(crossings(rows[self.other], values, np.array([self.value]))[0])
+            return float(crossings(other, values, np.array([self.value]))[0])
         if not (complete or self.stopped) or len(values) == 0:
             return np.nan
         if self.at in ("start", "end"):
             return float(values[0 if self.at == "start" else -1])
-        searched = rows[self.other] if self.other else values
-        if np.isnan(searched).all():
+        if np.isnan(other).all():
             return np.nan
-        place = np.nanargmax(searched) if self.at.startswith("max") else np.nanargmin(searched)
+        place = np.nanargmax(other) if self.at.startswith("max") else np.nanargmin(other)
         return float(values[place])
 
 

@@ -107,12 +107,13 @@ def _of_function(root: Node, entries: Mapping[str, Node], folder: str, many: boo
     design = read_design(entries["design"], inputs)
     if isinstance(entries["outputs"].value, Mapping) and many:
         entries["outputs"].fail("a function of arrays gives the outputs, expected a list of their names")
+    outputs: tuple[Output, ...] | tuple[str, ...]
     if isinstance(entries["outputs"].value, Mapping):
-        outputs = read_outputs(entries["outputs"], None)
-        model: Model = BuiltModel(function, os.path.abspath(folder), outputs)
+        outputs = of_tests = read_outputs(entries["outputs"], None)
+        model: Model = BuiltModel(function, os.path.abspath(folder), of_tests)
     else:
-        outputs = tuple(item.text("the name of an output") for item in entries["outputs"].items())
-        model = (ManyModel if many else FunctionModel)(function, outputs)
+        outputs = names = tuple(item.text("the name of an output") for item in entries["outputs"].items())
+        model = (ManyModel if many else FunctionModel)(function, names)
     name = f"{getattr(function, '__module__', '?')}.{getattr(function, '__qualname__', repr(type(function)))}"
     return _plan(root, entries, model, inputs, design, outputs, {"function": name})
 

@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from typing import Any
 
@@ -53,7 +53,7 @@ class _Queue:
         return list(zip(numbers.tolist(), self._points.take(pa.array(numbers)).to_pylist(), strict=True))
 
 
-def run_here(model: Model, points: pa.Table, pending: np.ndarray) -> Iterator[Rows]:
+def run_here(model: Model, points: pa.Table, pending: np.ndarray) -> Generator[Rows, None, None]:
     """One after the other in this process."""
     queue = _Queue(points, pending, 1)
     while queue:
@@ -64,16 +64,16 @@ def run_here(model: Model, points: pa.Table, pending: np.ndarray) -> Iterator[Ro
 
 def run_on(
     executor: Executor, model: Model, points: pa.Table, pending: np.ndarray, workers: int | None
-) -> Iterator[Rows]:
+) -> Generator[Rows, None, None]:
     """On an executor of the caller's. workers: how many it has; None: not known."""
     count = workers or _UNKNOWN_WORKERS
     try:
-        yield from _drive(lambda runs: executor.submit(run_points, model, runs), _Queue(points, pending, count), count)
+        yield from _drive(_submit(executor, model), _Queue(points, pending, count), count)
     except Exception as error:  # a run does not raise: the executor has lost one, or cannot send it
         raise InternalError(f"the executor failed: {type(error).__name__}: {error}") from error
 
 
-def run_in_processes(model: Model, points: pa.Table, pending: np.ndarray, workers: int) -> Iterator[Rows]:
+def run_in_processes(model: Model, points: pa.Table, pending: np.ndarray, workers: int) -> Generator[Rows, None, None]:
     """In processes of this machine. A run that ends its process is a row with that reason, and the others go on."""
     try:
         pickle.dumps(model)
@@ -85,12 +85,16 @@ def run_in_processes(model: Model, points: pa.Table, pending: np.ndarray, worker
         in_flight: dict[Future, list[Run]] = {}
         pool = _pool(workers)
         try:
-            yield from _drive(lambda runs, pool=pool: pool.submit(run_points, model, runs), queue, workers, in_flight)
+            yield from _drive(_submit(pool, model), queue, workers, in_flight)
         except BrokenExecutor:
             for runs in in_flight.values():
                 yield from _isolate(model, runs)
         finally:
             pool.shutdown(cancel_futures=True)
+
+
+def _submit(executor: Executor, model: Model) -> Callable[[Sequence[Run]], Future]:
+    return lambda runs: executor.submit(run_points, model, runs)
 
 
 def _pool(workers: int) -> ProcessPoolExecutor:
@@ -104,11 +108,12 @@ def _start_worker() -> None:
 
 
 def _end_with_parent() -> None:
-    multiprocessing.connection.wait([multiprocessing.parent_process().sentinel])
+    if parent := multiprocessing.parent_process():
+        multiprocessing.connection.wait([parent.sentinel])
     os._exit(1)
 
 
-def _isolate(model: Model, runs: list[Run]) -> Iterator[Rows]:
+def _isolate(model: Model, runs: list[Run]) -> Generator[Rows, None, None]:
     """Runs of which one may have ended its process, in processes of their own: halved until it is found."""
     begun = time.perf_counter()
     with _pool(1) as pool:
@@ -130,7 +135,7 @@ def _drive(
     queue: _Queue,
     workers: int,
     in_flight: dict[Future, list[Run]] | None = None,
-) -> Iterator[Rows]:
+) -> Generator[Rows, None, None]:
     """Keep the workers busy. in_flight: chunks without result, for who wants to know them after an exception."""
     in_flight = {} if in_flight is None else in_flight
     ready: deque[Future] = deque()

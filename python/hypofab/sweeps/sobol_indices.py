@@ -87,7 +87,7 @@ def _indices(result: SweepResult, name: str, confidence: float, resamples: int, 
     curves = values.reshape(-1, count + 2, *values.shape[1:])
     curves = curves.reshape(*curves.shape[:2], -1)  # base sample, row of the sample, point of the curve
     problem = {"num_vars": count, "names": list(result.inputs), "bounds": [[0, 1]] * count}
-    good = np.isfinite(curves).all(axis=1)
+    good = np.asarray(np.isfinite(curves).all(axis=1))
     if values.ndim == 1 and good.sum() < 2:
         raise InputError(
             f"output '{name}' has {int(good.sum())} complete base samples, expected 2", Status.BAD_ARGUMENT

@@ -191,9 +191,11 @@ def read_folder(folder: Path, schema: pa.Schema | None = None) -> pa.Table:
         tables = [parquet.read_table(path) for path in sorted((folder / "rows").glob("part-*.parquet"))]
     except FileNotFoundError:  # the sweep has just come to its end
         return parquet.read_table(folder / "results.parquet")
-    if not tables and schema is None:
+    if tables:
+        return pa.concat_tables(tables).sort_by("run")
+    if schema is None:
         raise InputError(f"{folder}: no results of a sweep", Status.BAD_FILE)
-    return pa.concat_tables(tables).sort_by("run") if tables else schema.empty_table()
+    return schema.empty_table()
 
 
 def first_difference(found: Any, wanted: Any, place: str = "") -> str | None:  # noqa: ANN401 - JSON

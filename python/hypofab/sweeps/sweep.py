@@ -2,7 +2,7 @@
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, nullcontext
 from dataclasses import dataclass
@@ -162,7 +162,9 @@ def run_plan(
     return SweepResult(table, plan.manifest, None if into is None else Path(into))
 
 
-def _runs(plan: Plan, pending: np.ndarray, executor: Executor | None, workers: int | None) -> Iterator[Rows]:
+def _runs(
+    plan: Plan, pending: np.ndarray, executor: Executor | None, workers: int | None
+) -> Generator[Rows, None, None]:
     if executor is not None:
         return run_on(executor, plan.model, plan.points, pending, workers)
     count = min(workers or processors(), max(1, len(pending)))
