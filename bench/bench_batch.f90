@@ -53,7 +53,8 @@ program bench_batch
   write (*, '(a, f0.1, a)') 'one scalar rate: ', rate_cost, ' ns'
   write (*, '(a)') ''
   write (*, '(a)') '                             ns per point              rates per     scalar     stress error (relative)'
- write (*, '(a)') 'set      states |strain|     and step   in rates  point, step     share      median      worst    scalar path, ns'
+ write (*, '(a)') 'set      states |strain|     and step   in rates  point, step     share      median      worst    '// &
+    'scalar path, ns'
   do set = 0, best_instructions()
     do i = 1, size(sizes)
       call time_batch(set, 'random', start, sizes(i))
@@ -182,7 +183,8 @@ contains
         error(k) = norm(work%stress(k, :) - state%stress) / norm(state%stress)
     end do
     write (*, '(a9, a7, es8.1, f13.0, f11.2, f13.1, f8.1, a, es12.1, es11.1, f19.0)') names(set), what, length, best, &
-      best / rate_cost, real(sum(evaluations), wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', median(error), maxval(error), best_scalar
+      best / rate_cost, real(sum(evaluations), wp) / n_points, 100.0_wp * real(scalar, wp) / n_points, ' %', &
+      median(error), maxval(error), best_scalar
   end subroutine time_batch
 
 end program bench_batch

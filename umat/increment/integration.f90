@@ -46,7 +46,8 @@ module umat_integration
   !> With the tangent, the rule of three nodes is tried first up to this part of R, or this strain of the plain model.
   real(wp), parameter :: few_nodes_of_R = 0.05_wp, few_nodes_plain = 1.0e-6_wp
 
-  !> A step that is meant to cover this part of what is left covers it all; above the most that is left after a rejection (step.f90).
+  !> A step that is meant to cover this part of what is left covers it all; above the most that is left after a rejection
+  !> (step.f90).
   real(wp), parameter :: nearly = 0.95_wp
 
 contains
@@ -142,8 +143,8 @@ contains
     influence = step%influence
   end subroutine integrate
 
-  !> First step tried from delta = 0, as a part of R. There rho^beta_r bends the path whatever the scale, so that the error of a step
-  !> is a fixed part of it.
+  !> First step tried from delta = 0, as a part of R. There rho^beta_r bends the path whatever the scale, so that the error of
+  !> a step is a fixed part of it.
   pure function first_from_zero(options) result(part)
     type(options_type), intent(in) :: options
     real(wp) :: part
