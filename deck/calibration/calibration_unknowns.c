@@ -77,8 +77,7 @@ static hypofab_status add_parameter(hypofab_calibration *c, const deck_source *s
     return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is under 'ratios', too, expected one of both", name);
   if (describe(c, index).role == HYPOFAB_OF_MEMORY && !study_has_intergranular(&c->problem.material))
     return deck_refuse(source, HYPOFAB_BAD_FILE, key,
-                       "'%s', but the sand starts without intergranular strain, expected "
-                       "m_R > 0.5 under 'parameters'",
+                       "'%s', but the sand starts without intergranular strain, expected it on under 'parameters'",
                        name);
   hypofab_status status = bounds_of(c, source, index, &lower, &upper);
   if (status) return status;

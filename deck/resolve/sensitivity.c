@@ -23,16 +23,16 @@ static hypofab_status vary_c(const study_state *state, const hypofab_material *m
 }
 
 /* The stiffness of the pore water must come from the material in every step, and in one at least. */
-static hypofab_status check_water(const deck_test *given) {
+static hypofab_status check_water(const deck_test *given, const char *name) {
   unsigned steps = 0;
   for (unsigned i = 0; i < given->steps_count; ++i) {
     const deck_water *water = given->steps[i].pore_water;
     if (!water || water->held) continue;
     if (water->K_w)
-      return refuse("K_w", "is given by a step of the test itself, expected it among the parameters of the material");
+      return refuse(name, "is given by a step of the test itself, expected it among the parameters of the material");
     ++steps;
   }
-  return steps > 0 ? HYPOFAB_OK : refuse("K_w", "is not in this test, expected a step with pore_water");
+  return steps > 0 ? HYPOFAB_OK : refuse(name, "is not in this test, expected a step with pore_water");
 }
 
 /* Does a number belong to the intergranular strain: one of its parameters, of its components, or c? */
@@ -57,14 +57,16 @@ hypofab_status hypofab_study_variation(const hypofab_study *study, int test, con
   const hypofab_quantity quantity = hypofab_model_quantity_find(material->model, name);
   const bool of_delta = quantity >= HYPOFAB_DELTA_XX && quantity <= HYPOFAB_DELTA_YZ;
   if (!study_has_intergranular(material) && is_of_memory(material->model, name))
-    return refuse(name, "has no influence, for the material has no intergranular strain (m_R <= 0.5)");
+    return refuse(name, "has no influence, for the material has no intergranular strain, or it is off");
   if (strcmp(name, "c") == 0) return vary_c(state, material, variation);
-  hypofab_status status = strcmp(name, "K_w") == 0 ? check_water(&study->deck->tests[test]) : HYPOFAB_OK;
+  const hypofab_model_info *info = hypofab_model_describe(material->model);
+  const int parameter = hypofab_model_parameter_find(material->model, name);
+  const bool is_water = parameter >= 0 && parameter == info->pore_water;
+  hypofab_status status = is_water ? check_water(&study->deck->tests[test], name) : HYPOFAB_OK;
   if (!status) status = hypofab_variation_of(name, material, variation);
   if (status) return status;
-  const hypofab_model_info *info = hypofab_model_describe(material->model);
   const double *delta = study_has_intergranular(material) ? &state->initial.variable[info->memory] : NULL;
-  if (hypofab_model_parameter_find(material->model, name) == info->memory_parameter && delta &&
+  if (parameter >= 0 && parameter == info->memory_parameter && delta &&
       follows_R(study->deck->states[study->tests[test].state].delta))
     for (int i = 0; i < 6; ++i)
       variation->initial.variable[info->memory + i] = delta[i] / hypofab_memory_size(material);
