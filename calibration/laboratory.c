@@ -1,7 +1,7 @@
 /* Kinds of laboratory tests and what is measured in them. */
 #include <stddef.h>
 
-#include "calibration/plan.h"
+#include "calibration/laboratory.h"
 
 enum { BIT_EPS1 = 1 << HYPOFAB_LAB_EPS1, BIT_EPS_V = 1 << HYPOFAB_LAB_EPS_V, BIT_Q = 1 << HYPOFAB_LAB_Q };
 enum { BIT_P = 1 << HYPOFAB_LAB_P, BIT_E = 1 << HYPOFAB_LAB_E, BIT_SIGMA1 = 1 << HYPOFAB_LAB_SIGMA1 };

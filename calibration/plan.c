@@ -5,6 +5,9 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "calibration/laboratory.h"
+#include "calibration/reversals.h"
+#include "calibration/thinning.h"
 
 enum { DEFAULT_POINTS = 60, MOST_PARTS = 5 };
 

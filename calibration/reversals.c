@@ -1,5 +1,5 @@
 /* Turning points of a noisy sequence, by hysteresis. */
-#include "calibration/plan.h"
+#include "calibration/reversals.h"
 
 int find_reversals(int n, const double *value, double least, int *turns) {
   int count = 0, low = 0, high = 0, rising = 0; /* rising: 1, -1, or 0 while nothing is known */

@@ -1,6 +1,6 @@
 /* Rows that are compared: evenly spaced along the measured curve, however the apparatus recorded them. */
+#include "calibration/thinning.h"
 #include "calibration/distance.h"
-#include "calibration/plan.h"
 
 enum { BISECTIONS = 40 };
 

@@ -12,7 +12,11 @@
 #include <sundials/sundials_types.h>
 #include <sundials/sundials_version.h>
 
-#include "driver/integrate/integrate.h"
+#include "driver/control/control.h"
+#include "driver/quantity/state.h"
+
+/** An integrator, as in integrate.h. */
+typedef struct integrator integrator;
 
 /** One integrator of SUNDIALS. Functions return its flag: 0 or more for success. */
 typedef struct integrator_method {

@@ -4,7 +4,6 @@
 #define HYPOFAB_DRIVER_CHANGE_H
 
 #include "driver/quantity/observer.h"
-#include "driver/quantity/principal.h"
 
 /** The derivatives, with respect to one number x, of all that quantities depend on. */
 typedef struct quantity_change {

@@ -1,7 +1,7 @@
 /* Quantities that are numbers of the state of a test, or norms of its strain and intergranular strain. */
 #include <math.h>
 
-#include "driver/quantity/table.h"
+#include "driver/quantity/row.h"
 #include "driver/tensor.h"
 
 double time_value(const quantity_place *at, int k) { return (void)k, at->time; }

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/angle.h"
-#include "driver/quantity/table.h"
+#include "driver/quantity/row.h"
 #include "driver/tensor.h"
 
 static const double *stress_of(const quantity_place *at) { return at->state->material.stress; }

@@ -1,5 +1,5 @@
 /* Quantities of the pore water: excess pressure and total stress. */
-#include "driver/quantity/table.h"
+#include "driver/quantity/row.h"
 #include "driver/tensor.h"
 
 double pressure_value(const quantity_place *at, int k) {

@@ -11,7 +11,8 @@
 #include <cmocka.h>
 /* clang-format on */
 
-#include "calibration/plan.h"
+#include "calibration/reversals.h"
+#include "calibration/thinning.h"
 
 static double length(const foot *at, int axes) {
   double sum = 0.0;

@@ -9,9 +9,11 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "umat/api/rows.h"
+#include "umat/sand/estimate_peak.h"
+#include "umat/sand/operations.h"
 
-enum { PHI_C, P_T, H_S, N_EXPONENT, E_D0, E_C0, E_I0, ALPHA, BETA };
+enum { PHI_C, P_T, H_S, N_EXPONENT, E_D0, E_C0, E_I0, ALPHA, BETA, N_PARAMETERS = 16 };
+enum { VOID_RATIO = 6 };
 
 static const double degree = 3.14159265358979323846 / 180.0;
 /* Loosest and densest packing over the critical void ratio, where index tests do not tell. */
@@ -164,18 +166,23 @@ static void estimate_alpha(int n, const hypofab_laboratory_test *tests, hypofab_
 
 /* Axial stiffness of the model without intergranular strain under K0 compression; 0 when it has none. */
 static double oedometer_stiffness(const hypofab_direct_estimate *estimate, double p, double e) {
-  hypofab_material material;
-  hypofab_material_start(&hypofab_sand_model, &material);
-  hypofab_memory_off(&material);
+  double parameters[HYPOFAB_MAX_PARAMETERS];
+  hypofab_parameter_info info;
+  for (int i = 0; i < N_PARAMETERS; i++) {
+    hypofab_sand_parameter(i, &info);
+    parameters[i] = info.start;
+  }
+  hypofab_sand_memory_off(parameters);
   for (int i = PHI_C; i < BETA; i++)
-    if (i != P_T) material.value[i] = estimate->value[i];
-  material.value[BETA] = 1.0;
-  const double K0 = 1.0 - sin(material.value[PHI_C] * degree), axial = 3.0 * p / (1.0 + 2.0 * K0);
-  hypofab_state state = {.stress = {-K0 * axial, -K0 * axial, -axial}};
-  state.variable[hypofab_sand_model.info.void_ratio] = e;
+    if (i != P_T) parameters[i] = estimate->value[i];
+  parameters[BETA] = 1.0;
+  const double K0 = 1.0 - sin(parameters[PHI_C] * degree), axial = 3.0 * p / (1.0 + 2.0 * K0);
+  hypofab_state state = {.stress = {-K0 * axial, -K0 * axial, -axial}}, rate;
+  state.variable[VOID_RATIO] = e;
   const double stretching[6] = {0, 0, -1, 0, 0, 0};
-  hypofab_state rate;
-  return hypofab_rate(&material, &state, stretching, &rate, NULL) ? 0.0 : -rate.stress[2];
+  hypofab_branch branch;
+  hypofab_fault fault;
+  return hypofab_sand_rate(parameters, &state, stretching, &rate, &branch, &fault) ? 0.0 : -rate.stress[2];
 }
 
 /* Stiffness is proportional to (e_i/e)^beta, all else being known; from the densest oedometer test. */

@@ -1,7 +1,7 @@
 /* Closed forms of the direct estimates. */
 #include <math.h>
 
-#include "umat/sand/estimate.h"
+#include "umat/sand/estimate_peak.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
