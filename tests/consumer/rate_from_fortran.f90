@@ -3,22 +3,24 @@ program rate_from_fortran
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_null_char, c_ptr, c_null_ptr
   implicit none
 
-  !> hypofab_material of hypofab.h: h_s and all stresses in kPa.
+  !> hypofab_material of hypofab.h: a model and its parameters, of the sand in the order of PROPS; stresses in kPa.
   type, bind(c) :: material_t
-    real(c_double) :: phi_c, p_t, h_s, n, e_d0, e_c0, e_i0, alpha, beta, m_r, m_t, r, beta_r, chi, k_w, e_0
+    type(c_ptr) :: model
+    real(c_double) :: value(32)
   end type material_t
 
-  !> hypofab_state of hypofab.h: tensor components xx yy zz xy xz yz, tension positive.
+  !> hypofab_state of hypofab.h: tensor components xx yy zz xy xz yz, tension positive. Of the sand's variables the first six
+  !> numbers are delta, the seventh is the void ratio.
   type, bind(c) :: state_t
-    real(c_double) :: stress(6), delta(6), void_ratio
+    real(c_double) :: stress(6), variable(16)
   end type state_t
 
   interface
-    integer(c_int) function hypofab_sand(name, material) bind(c)
+    integer(c_int) function hypofab_material_built_in(name, material) bind(c)
       import :: c_int, c_char, material_t
       character(kind=c_char), intent(in) :: name(*)
       type(material_t), intent(out) :: material
-    end function hypofab_sand
+    end function hypofab_material_built_in
     integer(c_int) function hypofab_rate(material, state, stretching, rate, branch) bind(c)
       import :: c_int, c_double, c_ptr, material_t, state_t
       type(material_t), intent(in) :: material
@@ -34,9 +36,10 @@ program rate_from_fortran
   type(material_t) :: sand
   type(state_t) :: state, once, twice
 
-  call require(hypofab_sand("hochstetten"//c_null_char, sand), "hypofab_sand")
+  call require(hypofab_material_built_in("hochstetten"//c_null_char, sand), "hypofab_material_built_in")
   state = state_t(stress=[-100.0_c_double, -80.0_c_double, -90.0_c_double, 5.0_c_double, 0.0_c_double, 0.0_c_double], &
-                  delta=0.0_c_double, void_ratio=0.5_c_double * (sand%e_c0 + sand%e_d0))
+                  variable=0.0_c_double)
+  state%variable(7) = 0.75_c_double
   call require(hypofab_rate(sand, state, stretching, once, c_null_ptr), "hypofab_rate")
   call require(hypofab_rate(sand, state, 2.0_c_double * stretching, twice, c_null_ptr), "hypofab_rate")
   print '(a, 6es12.4)', "stress rate [kPa]:", once%stress
