@@ -8,12 +8,9 @@ pkg_check_modules(CYAML REQUIRED IMPORTED_TARGET libcyaml) # decks
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd) # contact files compressed by zstd
 find_package(Threads REQUIRED) # contact files are parsed by several threads
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson) # JSON results
-find_library(CSV_LIBRARY csv REQUIRED) # contact lists; libcsv ships no pkg-config file
-find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
 
 add_library(hypofab_dependencies INTERFACE)
-target_include_directories(hypofab_dependencies INTERFACE ${CSV_INCLUDE_DIR})
 target_link_libraries(
   # GSL before LAPACK: its plain BLAS serves 6x6 systems better than a threaded one that LAPACK may bring along.
   hypofab_dependencies INTERFACE SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::ida SUNDIALS::sunlinsoldense SUNDIALS::nvecserial
-                                 GSL::gsl LAPACK::LAPACK ZLIB::ZLIB PkgConfig::ZSTD Threads::Threads PkgConfig::CYAML PkgConfig::JANSSON ${CSV_LIBRARY} m)
+                                 GSL::gsl LAPACK::LAPACK ZLIB::ZLIB PkgConfig::ZSTD Threads::Threads PkgConfig::CYAML PkgConfig::JANSSON m)

@@ -63,7 +63,7 @@ typedef enum hypofab_about {
   HYPOFAB_ABOUT_STEP,        /**< a step of a test: index; name is the test's where it has one */
   HYPOFAB_ABOUT_KEY,         /**< a key of a deck or a calibration file: name is its path, e.g. "states[0].stress" */
   HYPOFAB_ABOUT_ROW,         /**< a row of a table: index */
-  HYPOFAB_ABOUT_COLUMN       /**< a column of a table: name */
+  HYPOFAB_ABOUT_COLUMN       /**< a column of a table: name; index: the line of the cell in the file, -1: all of them */
 } hypofab_about;
 
 /** The subject of a failure: data for programs; hypofab_last_message() is for people. */

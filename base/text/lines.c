@@ -90,6 +90,8 @@ void lines_back(lines *input) {
   input->number--;
 }
 
+hypofab_status lines_look_ahead(lines *input) { return input->at_end ? HYPOFAB_OK : widen(input); }
+
 static int64_t count_lines(const char *text, size_t length) {
   int64_t count = 0;
   for (size_t i = 0; i < length; i++) count += text[i] == '\n';

@@ -36,6 +36,9 @@ hypofab_status lines_next(lines *input, bool *more);
 /** Have the next call deliver the line at hand once more, as the file has it. Only once after lines_next. */
 void lines_back(lines *input);
 
+/** Have more of the file in the window without taking any of it. At the end of the file nothing happens. */
+hypofab_status lines_look_ahead(lines *input);
+
 /**
  * @brief Read many whole lines at once.
  * @param most       largest number of lines

@@ -20,6 +20,20 @@ static const char *read_slowly(const char *text, double *value) {
   return end == text ? NULL : end;
 }
 
+/* The same where the C library would not read on at a decimal comma or at the exponent of Fortran: by a copy. */
+static const char *read_foreign(const char *text, char decimal, double *value) {
+  char copy[400];
+  size_t n = 0;
+  for (; n < sizeof copy - 1 && text[n] && strchr("+-0123456789.,eEdD", text[n]); n++) {
+    const char c = text[n];
+    if (c == (decimal == ',' ? '.' : ',')) break;
+    copy[n] = c == ',' ? '.' : c == 'd' || c == 'D' ? 'e' : c;
+  }
+  copy[n] = '\0';
+  const char *end = read_slowly(copy, value);
+  return end ? text + (end - copy) : NULL;
+}
+
 /* Exact powers of ten: 10^22 is the largest in double, 10^27 in the long double of x86. */
 static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -52,9 +66,11 @@ static bool scale(uint64_t digits, int power, double *value) {
   return true;
 }
 
+static inline bool is_exponent(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
+
 static inline bool is_digit(char c) { return (unsigned)(c - '0') < 10; }
 
-const char *number_read(const char *text, double *value) {
+static inline const char *read_number(const char *text, char decimal, double *value) {
   const char *p = text;
   const bool negative = *p == '-';
   if (negative || *p == '+') p++;
@@ -62,7 +78,7 @@ const char *number_read(const char *text, double *value) {
   const char *first = p;
   while (is_digit(*p)) digits = 10 * digits + (uint64_t)(*p++ - '0');
   int count = (int)(p - first), power = 0;
-  if (*p == '.') {
+  if (*p == decimal) {
     first = ++p;
     while (is_digit(*p)) digits = 10 * digits + (uint64_t)(*p++ - '0');
     power = (int)(first - p);
@@ -70,8 +86,10 @@ const char *number_read(const char *text, double *value) {
   }
   /* More digits would not fit; no digits: nan, inf, or no number. 0x and other beginnings stop at a letter. */
   if (count == 0 && *p != 'n' && *p != 'N' && *p != 'i' && *p != 'I') return NULL;
-  if (count == 0 || count > 19 || *p == 'x' || *p == 'X') return read_slowly(text, value);
-  if (*p == 'e' || *p == 'E') {
+  bool foreign = decimal != '.';
+  if (count == 0 || *p == 'x' || *p == 'X') return read_slowly(text, value);
+  if (is_exponent(*p)) {
+    foreign |= *p == 'd' || *p == 'D';
     const char *mark = p++;
     const bool down = *p == '-';
     if (down || *p == '+') p++;
@@ -80,9 +98,16 @@ const char *number_read(const char *text, double *value) {
     while (p != mark && is_digit(*p)) exponent = exponent < 10000 ? 10 * exponent + (*p++ - '0') : (p++, exponent);
     power += down ? -exponent : exponent;
   }
-  if (!scale(digits, power, value)) return read_slowly(text, value);
+  if (count > 19 || !scale(digits, power, value))
+    return foreign ? read_foreign(text, decimal, value) : read_slowly(text, value);
   if (negative) *value = -*value;
   return p;
+}
+
+const char *number_read(const char *text, double *value) { return read_number(text, '.', value); }
+
+const char *number_read_as(const char *text, char decimal, double *value) {
+  return decimal == '.' ? read_number(text, '.', value) : read_number(text, ',', value);
 }
 
 const char *whole_number_read(const char *text, int64_t *value) {

@@ -2,9 +2,11 @@
  * @file table.h
  * @brief A text table: columns found by name or number, rows turned into checked numbers.
  *
- * Names come from the first row when no field of it is a number, otherwise from the last line before the data that
- * starts with '#'. Other lines that start with '#' and empty lines are skipped. Rows may be read one after the other
- * (table_next), or by several threads from blocks of lines (table_row).
+ * Names come from the line before the data, a comment or not, that has most of those asked for: as they are written,
+ * else in capitals or small letters. Comments (#, %, !, //, **) and empty lines are skipped, so are lines of other
+ * things before the header and rows without numbers (units) right behind it. Separator and decimal mark are found once
+ * for the file. Rows may be read one after the other (table_next), or by several threads from blocks of lines
+ * (table_row).
  */
 #ifndef HYPOFAB_FABRIC2DELTA_TABLE_H
 #define HYPOFAB_FABRIC2DELTA_TABLE_H
@@ -40,6 +42,7 @@ typedef struct table {
   int column[TABLE_MAX_REQUESTS];       /**< 1-based number of each requested column; 0: not there */
   const char *name[TABLE_MAX_REQUESTS]; /**< under which a column was found, for messages */
   char separator;                       /**< ',' ';' '\t' ' ' (runs of blanks and tabs) */
+  char decimal;                         /**< '.' or ',': one for the whole file */
   int width;                            /**< columns every row has */
   bool width_of_header;                 /**< the width comes from the header, else from the first row */
   int64_t rows;                         /**< rows delivered by table_next so far */

@@ -5,34 +5,20 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/text/fields.h"
 #include "base/text/number.h"
 #include "base/text/table.h"
 
-static inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+/* Marks of comments: #, %, !, //, **. */
+bool table_skips(const char *line, const char *end) {
+  while (line < end && (*line == ' ' || *line == '\t' || *line == '\r')) line++;
+  if (line == end || *line == '#' || *line == '%' || *line == '!') return true;
+  return line + 1 < end && (*line == '/' || *line == '*') && line[1] == *line;
+}
 
 /* Whether a field ends at p. */
 static inline bool ends_field(const table *data, const char *p, const char *end) {
   return p == end || *p == data->separator || (data->separator == ' ' && *p == '\t');
-}
-
-/* From inside a field to its end; a field that begins with a quote ends behind the closing one. */
-static inline const char *skip_field(const table *data, const char *p, const char *end) {
-  if (p < end && *p == '"') {
-    do p++;
-    while (p < end && *p != '"');
-    while (p + 1 < end && p[1] == '"') /* a doubled quote is part of the text */
-      for (p += 2; p < end && *p != '"'; p++) continue;
-  }
-  if (data->separator == ' ')
-    while (p < end && !is_blank(*p)) p++;
-  else
-    while (p < end && *p != data->separator) p++;
-  return p;
-}
-
-static inline const char *skip_blanks(const char *p, const char *end) {
-  while (p < end && is_blank(*p)) p++;
-  return p;
 }
 
 /* Blanks around a field that something else separates. */
@@ -50,16 +36,16 @@ static inline const char *read_field(const table *data, const table_request *ask
   if (p == end) return NULL;
   if (asked->whole) {
     const char *behind = whole_number_read(p, &value->whole);
-    if (!behind || *behind == '.' || *behind == 'e' || *behind == 'E') {
+    if (!behind || *behind == data->decimal || strchr("eEdD", *behind)) {
       double real; /* some programs write every column as a real number; beyond 2^53 they no longer tell ids apart */
-      behind = number_read(p, &real);
+      behind = number_read_as(p, data->decimal, &real);
       if (!behind || real != floor(real) || fabs(real) > 9007199254740992.0) return NULL;
       value->whole = (int64_t)real;
     }
     p = behind;
     if (value->whole < 0 && !asked->may_be_negative) return NULL;
   } else {
-    p = number_read(p, &value->real);
+    p = number_read_as(p, data->decimal, &value->real);
     if (!p || (!isfinite(value->real) && !asked->may_be_infinite)) return NULL;
   }
   if (quoted && (p == end || *p++ != '"')) return NULL;
@@ -71,11 +57,11 @@ static int count_fields(const table *data, const char *p, const char *end) {
   int fields = 0;
   for (;; p++) {
     if (data->separator == ' ') {
-      p = skip_blanks(p, end);
+      p = field_skip_blanks(p, end);
       if (p == end) return fields;
     }
     fields++;
-    p = skip_field(data, p, end);
+    p = field_end(data->separator, p, end);
     if (p == end) return fields;
   }
 }
@@ -83,9 +69,9 @@ static int count_fields(const table *data, const char *p, const char *end) {
 /* Where request k begins in a row; NULL when the row is too short. */
 static const char *find_field(const table *data, const char *p, const char *end, int k) {
   for (int column = 1;; column++) {
-    if (data->separator == ' ') p = skip_blanks(p, end);
+    if (data->separator == ' ') p = field_skip_blanks(p, end);
     if (column == data->column[k]) return p;
-    p = skip_field(data, p, end);
+    p = field_end(data->separator, p, end);
     if (p == end) return NULL;
     p++;
   }
@@ -94,10 +80,10 @@ static const char *find_field(const table *data, const char *p, const char *end,
 void table_cell(const table *data, const char *line, const char *end, int k, char cell[TABLE_CELL]) {
   if (end > line && end[-1] == '\r') end--;
   const char *p = find_field(data, line, end, k);
-  const char *behind = p ? skip_field(data, p, end) : NULL;
+  const char *behind = p ? field_end(data->separator, p, end) : NULL;
   if (p && data->separator != ' ') {
-    p = skip_blanks(p, behind);
-    while (behind > p && is_blank(behind[-1])) behind--;
+    p = field_skip_blanks(p, behind);
+    while (behind > p && field_blank(behind[-1])) behind--;
   }
   const int length = p ? (int)(behind - p) : 0;
   const bool cut = length >= TABLE_CELL;
@@ -109,21 +95,23 @@ hypofab_status table_refuse(const table *data, const char *line, const char *end
   const table_request *asked = &data->requests[k];
   char cell[TABLE_CELL];
   table_cell(data, line, end, k, cell);
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: column %d (%s): '%s' %s; expected %s", data->input->path,
-                      (long long)number, data->column[k], data->name[k] ? data->name[k] : asked->role, cell, problem,
-                      expected);
+  const char *name = data->name[k] ? data->name[k] : asked->role;
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_COLUMN, number - 1, name,
+                            "%s:%lld: column %d (%s): '%s' %s; expected %s", data->input->path, (long long)number,
+                            data->column[k], name, cell, problem, expected);
 }
 
 /* Say what is wrong with the field of request k, which read_field did not take. */
 static hypofab_status refuse_field(const table *data, const char *line, const char *end, int64_t number, int k) {
   const table_request *asked = &data->requests[k];
-  const char *problem = "is not a number";
+  const char *problem =
+      data->decimal == ',' ? "is not a number with a decimal comma, as the first one has" : "is not a number";
   char cell[TABLE_CELL];
   table_cell(data, line, end, k, cell);
   const char *text = cell[0] == '"' ? cell + 1 : cell;
   double real;
   int64_t whole;
-  const char *behind = text[0] ? number_read(text, &real) : NULL;
+  const char *behind = text[0] ? number_read_as(text, data->decimal, &real) : NULL;
   if (behind && (*behind == '\0' || *behind == '"')) {
     const bool as_digits = text[strspn(text, "-0123456789")] == '\0';
     if (!isfinite(real))
@@ -143,9 +131,10 @@ static const char *separator_name(char separator) {
 }
 
 static hypofab_status refuse_width(const table *data, int64_t number, int fields) {
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: %d columns (separated by %s); expected %d as in the %s",
-                      data->input->path, (long long)number, fields, separator_name(data->separator), data->width,
-                      data->width_of_header ? "header" : "first row");
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, number - 1, NULL,
+                            "%s:%lld: %d columns (separated by %s); expected %d as in the %s", data->input->path,
+                            (long long)number, fields, separator_name(data->separator), data->width,
+                            data->width_of_header ? "header" : "first row");
 }
 
 hypofab_status table_row(const table *data, const char *line, const char *end, int64_t number, table_value *values) {
@@ -154,12 +143,12 @@ hypofab_status table_row(const table *data, const char *line, const char *end, i
   int column = 0;
   for (;; p++) {
     if (data->separator == ' ') {
-      p = skip_blanks(p, end);
+      p = field_skip_blanks(p, end);
       if (p == end) break;
     }
     const int k = ++column <= data->width ? data->request_of[column] : -1;
     if (k < 0) {
-      p = skip_field(data, p, end);
+      p = field_end(data->separator, p, end);
     } else {
       p = read_field(data, &data->requests[k], p, end, &values[k]);
       if (!p) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/text/number.h"
 
 typedef struct text_reader {
   contact_columns columns;
@@ -66,7 +67,7 @@ static inline const char *next_row(const char *p, const char *stop, const char *
     *end = newline ? newline : stop;
     ++*number;
     /* Most rows begin with a digit or a sign: only other beginnings are looked at closer. */
-    if ((unsigned char)*p > '#' || !table_skips(p, *end)) return p;
+    if ((unsigned char)*p > '/' || *p == '-' || !table_skips(p, *end)) return p;
     p = *end + 1;
   }
   return NULL;
@@ -105,21 +106,23 @@ static hypofab_status refuse_normal(const table *data, bool plane, const char *l
     cell[i][0] = '\0';
     if (!column[ROLE_NX + i]) continue;
     table_cell(data, line, end, ROLE_NX + i, cell[i]);
-    n[i] = atof(cell[i]);
+    number_read_as(cell[i], data->decimal, &n[i]);
   }
   const char *const *name = data->name + ROLE_NX;
   if (!column[ROLE_NX])
-    return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the branch vector has no length; expected two different centres",
-                        data->input->path, (long long)number);
+    return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, number - 1, NULL,
+                              "%s:%lld: the branch vector has no length; expected two different centres",
+                              data->input->path, (long long)number);
   const double length = hypot(hypot(n[0], n[1]), plane ? 0.0 : n[2]);
-  return hypofab_fail(HYPOFAB_BAD_FILE,
-                      "%s:%lld: columns %d, %d, %d (%s, %s, %s): the normal (%s, %s, %s) has length %.6g%s; "
-                      "expected a %s",
-                      data->input->path, (long long)number, column[ROLE_NX], column[ROLE_NX + 1], column[ROLE_NX + 2],
-                      name[0] ? name[0] : "nx", name[1] ? name[1] : "ny", name[2] ? name[2] : "nz", cell[0], cell[1],
-                      cell[2], length, plane ? " in the plane" : "",
-                      problem == CONTACT_NOT_UNIT ? "unit vector (length 1 within 0.001)"
-                                                  : "unit vector (length 1 within 0.001): a contact has a direction");
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, number - 1, NULL,
+                            "%s:%lld: columns %d, %d, %d (%s, %s, %s): the normal (%s, %s, %s) has length %.6g%s; "
+                            "expected a %s",
+                            data->input->path, (long long)number, column[ROLE_NX], column[ROLE_NX + 1],
+                            column[ROLE_NX + 2], name[0] ? name[0] : "nx", name[1] ? name[1] : "ny",
+                            name[2] ? name[2] : "nz", cell[0], cell[1], cell[2], length, plane ? " in the plane" : "",
+                            problem == CONTACT_NOT_UNIT
+                                ? "unit vector (length 1 within 0.001)"
+                                : "unit vector (length 1 within 0.001): a contact has a direction");
 }
 
 /* The first column of a row that holds no finite number. */

@@ -47,7 +47,10 @@ static pipeline_slot *claim(contact_pipeline *pipeline) {
 
 static void publish(contact_pipeline *pipeline, pipeline_slot *slot, hypofab_status status) {
   slot->status = status;
-  if (status) snprintf(slot->message, sizeof slot->message, "%s", hypofab_last_message());
+  if (status) {
+    snprintf(slot->message, sizeof slot->message, "%s", hypofab_last_message());
+    slot->subject = *hypofab_last_subject();
+  }
   pthread_mutex_lock(&pipeline->lock);
   slot->ready = true;
   pthread_cond_broadcast(&pipeline->changed);
@@ -111,7 +114,9 @@ hypofab_status contact_pipeline_take(contact_pipeline *pipeline, contact_chunk *
   while (!slot->ready) pthread_cond_wait(&pipeline->changed, &pipeline->lock);
   pipeline->taken++;
   pthread_mutex_unlock(&pipeline->lock);
-  if (slot->status) return hypofab_fail(slot->status, "%s", slot->message);
+  if (slot->status)
+    return hypofab_fail_about(slot->status, slot->subject.about, slot->subject.index, slot->subject.name, "%s",
+                              slot->message);
   if (slot->chunk.length > 0) *chunk = &slot->chunk;
   return HYPOFAB_OK;
 }

@@ -18,6 +18,7 @@ typedef struct pipeline_slot {
   bool ready;
   hypofab_status status;
   char message[HYPOFAB_MESSAGE_SIZE]; /**< messages belong to threads; this one moves to the taker's */
+  hypofab_subject subject;            /**< and so does its subject */
 } pipeline_slot;
 
 /** Reading ahead. */

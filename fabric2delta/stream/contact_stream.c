@@ -29,6 +29,7 @@ struct contact_stream {
   int64_t refused; /* contacts that are wrong, when those are refused */
   hypofab_status refusal;
   char first_refused[HYPOFAB_MESSAGE_SIZE];
+  hypofab_subject first_subject; /* what it is about */
 };
 
 /* ----------------------------------------------------------------- opening */
@@ -118,12 +119,15 @@ static void note_problem(contact_stream *stream, size_t index, contact_problem p
   if (stream->refused++) return;
   stream->refusal = stream->reader.refuse(&stream->reader, stream->chunk, index, problem, id_role);
   snprintf(stream->first_refused, sizeof stream->first_refused, "%s", hypofab_last_message());
+  stream->first_subject = *hypofab_last_subject();
 }
 
 /* The message at the end of a file with wrong contacts: the first one and how many of each kind there are. */
 static hypofab_status refuse_all(const contact_stream *stream) {
   const hypofab_contact_report *report = &stream->report;
-  if (stream->refused == 1) return hypofab_fail(stream->refusal, "%s", stream->first_refused);
+  const hypofab_subject *first = &stream->first_subject;
+  if (stream->refused == 1)
+    return hypofab_fail_about(stream->refusal, first->about, first->index, first->name, "%s", stream->first_refused);
   const struct {
     int64_t count;
     const char *what;
@@ -139,8 +143,9 @@ static hypofab_status refuse_all(const contact_stream *stream) {
     if (kinds[i].count)
       snprintf(all + used, sizeof all - used, "%s%lld %s", used ? ", " : "", (long long)kinds[i].count, kinds[i].what);
   }
-  return hypofab_fail(stream->refusal, "%.680s. In all %lld of %lld contacts are wrong: %s", stream->first_refused,
-                      (long long)stream->refused, (long long)report->listed, all);
+  return hypofab_fail_about(stream->refusal, first->about, first->index, first->name,
+                            "%.680s. In all %lld of %lld contacts are wrong: %s", stream->first_refused,
+                            (long long)stream->refused, (long long)report->listed, all);
 }
 
 /* ------------------------------------------------------------------ reading */

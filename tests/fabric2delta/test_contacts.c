@@ -64,6 +64,41 @@ static void test_variants(void **state) {
     assert_same(read_fabric(write_text("alike.txt", alike[i]), NULL), plain);
 }
 
+/* What spreadsheets, Fortran programs and laboratories write. */
+static void test_foreign_tables(void **state) {
+  (void)state;
+  const hypofab_fabric plain = read_fabric(write_text("plain.txt", reference_list), NULL);
+  static const char *const alike[] = {
+      /* decimal commas: between semicolons, tabs and blanks */
+      "id1;id2;nx;ny;nz\n1;2;0,6;0,8;0\n1;3;0;-0,6;0,8\n1;4;1;0;0\n2;3;0;0;1\n4;5;0,48;0,6;6,4e-1\n",
+      "id1\tid2\tnx\tny\tnz\n1\t2\t0,6\t0,8\t0\n1\t3\t0\t-0,6\t0,8\n1\t4\t1\t0\t0\n2\t3\t0\t0\t1\n"
+      "4\t5\t0,48\t0,6\t0,64\n",
+      "id1 id2 nx ny nz\n1 2 0,6 0,8 0\n1 3 0 -0,6 0,8\n1 4 1 0 0\n2 3 0 0 1\n4 5 0,48 0,6 0,64\n",
+      /* exponents of Fortran */
+      "# id1 id2 nx ny nz\n1 2 6.0D-01 8.0D-01 0.0D+00\n1 3 0 -6.D-1 0.8d0\n1 4 1 0 0\n2 3 0 0 1D0\n"
+      "4 5 0.48 0.6 0.0064D+02\n",
+      /* other marks of comments */
+      "% id1 id2 nx ny nz\n1 2 0.6 0.8 0\n1 3 0 -0.6 0.8\n! half\n1 4 1 0 0\n// way\n2 3 0 0 1\n** end\n"
+      "4 5 0.48 0.6 0.64\n",
+      /* other things before the names, units behind them, capitals */
+      "Project: sample 7\nStep: 1200\nID1,ID2,NX,NY,NZ\n-,-,-,-,-\n\n1,2,0.6,0.8,0\n1,3,0,-0.6,0.8\n1,4,1,0,0\n"
+      "2,3,0,0,1\n4,5,0.48,0.6,0.64\n",
+      /* a comment that says one of the names */
+      "# id1 id2 nx ny nz\n# made by hand\n1 2 0.6 0.8 0\n1 3 0 -0.6 0.8\n1 4 1 0 0\n2 3 0 0 1\n4 5 0.48 0.6 0.64\n"};
+  for (size_t i = 0; i < sizeof alike / sizeof *alike; i++)
+    assert_same(read_fabric(write_text("alike.txt", alike[i]), NULL), plain);
+
+  /* names with blanks, between tabs or in columns under each other */
+  const hypofab_contact_format named = {.id1 = "Particle 1", .id2 = "Particle 2"};
+  static const char *const blanks[] = {
+      "Particle 1\tParticle 2\tnx\tny\tnz\n1\t2\t0.6\t0.8\t0\n1\t3\t0\t-0.6\t0.8\n1\t4\t1\t0\t0\n"
+      "2\t3\t0\t0\t1\n4\t5\t0.48\t0.6\t0.64\n",
+      "** Particle 1   Particle 2   nx     ny    nz  \n\n1 2 0.6 0.8 0\n1 3 0 -0.6 0.8\n1 4 1 0 0\n2 3 0 0 1\n"
+      "4 5 0.48 0.6 0.64\n"};
+  for (size_t i = 0; i < sizeof blanks / sizeof *blanks; i++)
+    assert_same(read_fabric(write_text("blanks.txt", blanks[i]), &named), plain);
+}
+
 static void test_separators_and_columns(void **state) {
   (void)state;
   const hypofab_fabric plain = read_fabric(write_text("plain.txt", reference_list), NULL);
@@ -188,7 +223,25 @@ static void test_refused_numbers(void **state) {
   refuse(HEADER "1 2 0.99999999999999999999999999999999999999999999999999999999999999999x 0 1\n",
          ":2: column 3 (nx): '0.9999", "9...' is not a number");
   refuse("id1,id2,nx,ny,nz\n1,2,,0,1\n", ":2: column 3 (nx): '' is not a number", "expected");
-  refuse("id1;id2;nx;ny;nz\n1;2;0,6;0,8;0\n", ":2: 3 columns", "expected 5 as in the header");
+  /* One decimal mark for a file. */
+  refuse("id1;id2;nx;ny;nz\n1;2;0,6;0,8;0\n1;3;0.6;0.8;0\n", ":3: column 3 (nx): '0.6' is not a number with a decimal",
+         "expected");
+  refuse("id1;id2;nx;ny;nz\n1;2;0.6;0.8;0\n1;3;0,6;0,8;0\n", ":3: column 3 (nx): '0,6' is not a number", "expected");
+}
+
+/* Where a refusal belongs travels as data: the column and the line of a cell, the line of a row. */
+static void test_subjects(void **state) {
+  (void)state;
+  refuse(HEADER "1 2 1 0 0\n1 3 0.x 1 0\n", ":3: column 3", "expected");
+  assert_int_equal(hypofab_last_subject()->about, HYPOFAB_ABOUT_COLUMN);
+  assert_int_equal(hypofab_last_subject()->index, 2);
+  assert_string_equal(hypofab_last_subject()->name, "nx");
+  refuse(HEADER "1 2 1 0 0\n1 2 1 0\n", ":3: 4 columns", "expected");
+  assert_int_equal(hypofab_last_subject()->about, HYPOFAB_ABOUT_ROW);
+  assert_int_equal(hypofab_last_subject()->index, 2);
+  refuse("id1 id2 ax ay az\n1 2 1 0 0\n", ": no column is named 'nx'", "the header names");
+  refuse(HEADER "1 2 1 0 0\n1 3 1 1 0\n", ":3: columns 3, 4, 5", "has length");
+  assert_int_equal(hypofab_last_subject()->about, HYPOFAB_ABOUT_ROW);
 }
 
 static void test_refused_normals(void **state) {
@@ -249,6 +302,11 @@ static void test_refused_files(void **state) {
   refuse("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", ":1: a VTK or XML file", "expected a text table");
   refuse("ITEM: TIMESTEP\n78500\n", ":3: the file ends", "expected a line 'ITEM: ...'");
   assert_int_equal(hypofab_fabric_read(NULL, NULL, NULL), HYPOFAB_BAD_ARGUMENT);
+
+  refuse("id1,id2,nx,ny,nz\r1,2,1,0,0\r1,3,0,1,0\r", ": lines end with carriage returns alone", "expected newlines");
+  const char wide[] = "\xFF\xFEi\0d\0001\0\n\0";
+  refuse_format(HYPOFAB_BAD_FILE, write_bytes("wide.txt", wide, sizeof wide - 1), NULL, ": the text is UTF-16",
+                "expected ASCII or UTF-8");
 
   const char zero[] = HEADER "1 2 1 0 0\n1 3 \0 1 0\n";
   refuse_format(HYPOFAB_BAD_FILE, write_bytes("binary.txt", zero, sizeof zero - 1), NULL, ":3: a zero byte",
@@ -322,12 +380,14 @@ static void test_refused_particles(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_variants),
+                                     cmocka_unit_test(test_foreign_tables),
                                      cmocka_unit_test(test_separators_and_columns),
                                      cmocka_unit_test(test_locale),
                                      cmocka_unit_test(test_real_list_by_number),
                                      cmocka_unit_test(test_coordination_numbers),
                                      cmocka_unit_test(test_many_huge_ids),
                                      cmocka_unit_test(test_refused_numbers),
+                                     cmocka_unit_test(test_subjects),
                                      cmocka_unit_test(test_refused_normals),
                                      cmocka_unit_test(test_refused_ids),
                                      cmocka_unit_test(test_refused_columns),

@@ -102,6 +102,31 @@ static void test_corners(void **state) {
   assert_null(number_read(" 5", &value));
 }
 
+/* Exponents of Fortran and decimal commas are the numbers that C writes otherwise. */
+static void test_foreign_numbers(void **state) {
+  (void)state;
+  const struct {
+    const char *text;
+    char decimal;
+    const char *usual, *rest;
+  } cases[] = {{"1.25D-01", '.', "1.25e-01", ""},
+               {"-2d+3 4", '.', "-2e+3", " 4"},
+               {"1.25D", '.', "1.25", "D"},
+               {"0,125", ',', "0.125", ""},
+               {"-3,5E2;1", ',', "-3.5e2", ";1"},
+               {"1.5", ',', "1", ".5"},
+               {"1,5", '.', "1", ",5"},
+               {"0,12345678901234567890123D-3", ',', "0.12345678901234567890123e-3", ""},
+               {"9007199254740993D300", '.', "9007199254740993e300", ""}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    double value;
+    const char *behind = number_read_as(cases[i].text, cases[i].decimal, &value);
+    assert_non_null(behind);
+    assert_string_equal(behind, cases[i].rest);
+    assert_true(value == strtod(cases[i].usual, NULL));
+  }
+}
+
 static void test_whole_numbers(void **state) {
   (void)state;
   int64_t value;
@@ -116,6 +141,7 @@ static void test_whole_numbers(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_decimals), cmocka_unit_test(test_random_doubles),
-                                     cmocka_unit_test(test_corners), cmocka_unit_test(test_whole_numbers)};
+                                     cmocka_unit_test(test_corners), cmocka_unit_test(test_foreign_numbers),
+                                     cmocka_unit_test(test_whole_numbers)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
