@@ -15,12 +15,7 @@
 #include <stddef.h>
 
 #include "hypofab.h"
-
-/** Numbers of a material: which model (its place in the registry), and its parameters. */
-#define CORE_MATERIAL (1 + HYPOFAB_MAX_PARAMETERS)
-
-/** Numbers of a state: stress, and those of the model's state variables. */
-#define CORE_STATE (6 + HYPOFAB_MAX_NUMBERS)
+#include "sizes.h"
 
 /** Numbers of a fabric: see core_pack_fabric. */
 #define CORE_FABRIC 30
@@ -61,6 +56,8 @@ void core_message(char *text, size_t size);
 void core_status_text(int status, char *text, size_t size);
 void core_version(char *text, size_t size);
 void core_quantity_name(int index, char *text, size_t size);
+/** CORE_MATERIAL and CORE_STATE. */
+void core_sizes(int *numbers);
 /** numbers: parameters, state variables, their numbers, place of the intergranular strain, of the void ratio. */
 int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size);
 int core_set(int model, int index, double *material, char *name, char *description, char *source, size_t name_size,

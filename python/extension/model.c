@@ -50,6 +50,11 @@ void core_quantity_name(int index, char *text, size_t size) {
   core_text(hypofab_quantity_name((hypofab_quantity)index), text, size);
 }
 
+void core_sizes(int *numbers) {
+  numbers[0] = CORE_MATERIAL;
+  numbers[1] = CORE_STATE;
+}
+
 int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size) {
   const hypofab_model *model = hypofab_model_at(index);
   if (!model) return HYPOFAB_BAD_ARGUMENT;

@@ -39,7 +39,6 @@ from hypofab.figures.memory import plot_envelopes as plot_envelopes
 from hypofab.figures.memory import plot_fabrics as plot_fabrics
 from hypofab.library import version as version
 from hypofab.model.materials import Material as Material
-from hypofab.model.materials import Parameter as Parameter
 from hypofab.model.materials import Sand as Sand
 from hypofab.model.materials import parameters as parameters
 from hypofab.model.materials import sands as sands
@@ -48,7 +47,6 @@ from hypofab.model.points import Increment as Increment
 from hypofab.model.points import LinearParts as LinearParts
 from hypofab.model.points import Points as Points
 from hypofab.model.points import Rate as Rate
-from hypofab.model.points import State as State
 from hypofab.model.points import linear_parts as linear_parts
 from hypofab.model.points import rate as rate
 from hypofab.model.points import update as update
@@ -60,6 +58,11 @@ from hypofab.model.probing import fit_ellipsoid as fit_ellipsoid
 from hypofab.model.probing import probe as probe
 from hypofab.model.probing import state_stability as state_stability
 from hypofab.model.probing import triangles as triangles
+from hypofab.model.registry import Model as Model
+from hypofab.model.registry import Parameter as Parameter
+from hypofab.model.registry import Variable as Variable
+from hypofab.model.registry import models as models
+from hypofab.model.states import State as State
 from hypofab.results.calibration import CalibrationResult as CalibrationResult
 from hypofab.results.calibration import FreeParameter as FreeParameter
 from hypofab.results.calibration import LabComparison as LabComparison

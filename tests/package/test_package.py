@@ -41,8 +41,14 @@ def run(*arguments: str | Path, expected: int = 0) -> str:
 def test_the_wheel_holds_what_runs_and_nothing_else() -> None:
     names = zipfile.ZipFile(archive("*.whl")).namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"hypofab"}
-    files = ("py.typed", "_core.pyi", "__init__.pyi", "libhypofab.so.0.1", "bin/hypofab", "laboratory/__init__.py")
-    for wanted in files:
+    for wanted in (
+        "py.typed",
+        "_core.pyi",
+        "__init__.pyi",
+        "libhypofab.so.0.1",
+        "bin/hypofab",
+        "laboratory/__init__.py",
+    ):
         assert f"hypofab/{wanted}" in names
     assert sum(name.endswith((".so.0.1", ".so")) for name in names) == 2
 

@@ -37,6 +37,24 @@ def test_figures_of_a_test(test: hypofab.TestResult) -> None:
         assert hypofab.plot({"a": test, "b": test}, kind).axes
 
 
+def test_compression_shows_paths_between_limiting_curves(test: hypofab.TestResult) -> None:
+    """Bauer's law, theory.md Eq. (6)."""
+    axes = test.plot("compression").axes[0]
+    assert [text.get_text() for text in axes.texts] == ["$e_i$", "$e_c$", "$e_d$"]
+    curves = [line for line in axes.lines if len(line.get_xdata()) == 200]
+    for curve, name in zip(curves, ("e_i0", "e_c0", "e_d0"), strict=True):
+        p, e = curve.get_data()
+        np.testing.assert_allclose(np.log(SAND[name] / e), (3 * p / SAND.h_s) ** SAND.n)
+        assert p[0] <= 100 <= p[-1]
+    assert not test.plot("compression", limits=False).axes[0].texts
+
+
+def test_limits_of_two_sands_are_told_apart(test: hypofab.TestResult) -> None:
+    other = hypofab.element_test(SAND.replace(phi_c=31.0, e_c0=0.9), START, COMPRESSION)
+    axes = hypofab.plot({"a": test, "b": other, "c": test}, "compression").axes[0]
+    assert [text.get_text().split("\n")[1] for text in axes.texts] == ["33°"] * 3 + ["31°"] * 3
+
+
 def test_measured_data_and_labels(test: hypofab.TestResult, tmp_path: Path) -> None:
     file = tmp_path / "lab.csv"
     file.write_text("eps_1,eps_v,q\n0,0,0\n0.01,0.003,40\n")

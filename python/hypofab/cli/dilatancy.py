@@ -5,6 +5,7 @@ from pathlib import Path
 
 from hypofab.cli.saving import save
 from hypofab.figures.dilatancy import critical_states, stress_dilatancy
+from hypofab.model.materials import Material
 from hypofab.results.drained import read_drained
 
 
@@ -20,4 +21,6 @@ def run(options: argparse.Namespace) -> None:
         suffix = f"_{number + 1}" if len(groups) > 1 else ""
         ratio = stress_dilatancy({name: tests}, materials[name]["phi_c"])
         save(ratio, options.directory / f"stress_dilatancy{suffix}")
-        save(critical_states({name: tests}, materials[name]), options.directory / f"critical_states{suffix}")
+        save(
+            critical_states({name: tests}, Material(**materials[name])), options.directory / f"critical_states{suffix}"
+        )

@@ -144,7 +144,7 @@ def report(directory: Path, out: Path, catalogue: Path | None = None) -> Path:
     if not present:
         raise ResultError(f"{directory}: none of the {len(tests)} files of the catalogue, e.g. {tests[0].file}")
     parameters = {name: sand.material for name, sand in sands().items()}
-    with_memory = {name for name, material in parameters.items() if material.has_memory}
+    with_memory = {name for name, material in parameters.items() if material.memory_size}
     out.mkdir(parents=True, exist_ok=True)
     rows: list[dict] = []
     by_material: dict[str, list[tuple[LabTest, Series, list[Computed]]]] = {}

@@ -10,7 +10,7 @@ import numpy as np
 
 from hypofab.errors import InputError, Status
 from hypofab.model.materials import Material
-from hypofab.model.points import State
+from hypofab.model.states import State
 
 Mark = tuple[str, float] | Mapping[str, Any]
 """A quantity and a value: ("eps_zz", -0.1), or a mapping as in decks."""
@@ -57,7 +57,7 @@ class Step:
         """With the same keys and values."""
         return isinstance(other, Step) and self._given == other._given
 
-    __hash__ = None  # type: ignore[assignment] # as Python has it for what can be compared but changed
+    __hash__ = None
 
     def mapping(self) -> dict[str, Any]:
         """The step as decks have it."""
@@ -89,16 +89,12 @@ def deck_of(tests: Iterable[Test]) -> dict[str, Any]:
     deck: dict[str, list] = {"materials": [], "states": [], "tests": []}
     for index, test in enumerate(tests):
         place = f"{index + 1}"
-        material: dict[str, Any] = {"name": place, "parameters": test.material.parameters()}
-        if not test.material.has_memory:
+        material = {"name": place, "parameters": test.material.parameters()}
+        if not test.material.memory_size:
             material["intergranular"] = False
-        delta = {"components": test.state.delta} if test.state.delta.any() else {"zero": True}
+        delta = {"components": test.state.memory} if test.state.memory.any() else {"zero": True}
         state = {"name": place, "material": place, "stress": test.state.stress, "void_ratio": test.state.void_ratio}
-        options: dict[str, Any] = {
-            "integrator": test.integrator,
-            "tolerance": test.tolerance,
-            "stability": test.stability or None,
-        }
+        options = {"integrator": test.integrator, "tolerance": test.tolerance, "stability": test.stability or None}
         options["sensitivities"] = list(test.sensitivities) or None
         deck["materials"].append(material)
         deck["states"].append(state | {"delta": delta})

@@ -7,7 +7,6 @@ program's: the same bits as `hypofab run`. Rows are in the sign and unit of the 
 import os
 import weakref
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ from hypofab.errors import InputError, Status
 from hypofab.fabric.uncertainty import units_and_replicates
 from hypofab.library import check, core, interruptible, last_message, text
 from hypofab.model.materials import Material
-from hypofab.model.points import State
+from hypofab.model.states import State
 from hypofab.results.element_tests import WHOLE, TestResult
 
 
@@ -58,7 +57,8 @@ class Study:
         """A state of the deck and its material, tension positive; delta of contact lists included."""
         status, material, state = core.study_state(self._handle, self._index(self.states, name, "state"))
         check(status)
-        return Material.from_numbers(material), State.from_numbers(state)
+        found = Material.from_numbers(material)
+        return found, State.from_numbers(state, found.model.name)
 
     def run_test(self, name: str) -> TestResult:
         """Run one test in memory. A physical end before the last step is in the result, and no exception."""
@@ -147,7 +147,7 @@ class Study:
             core.rows_free(int(rows[0]))
         return TestResult.of_columns(
             self.tests[index],
-            _columns_of(numbers),
+            self._columns(index, numbers),
             status=Status(status),
             message=message,
             stopped_in=step + 1 if status else None,
@@ -159,11 +159,21 @@ class Study:
             material=self.state(self.states[core.study_test_state(self._handle, index)])[0],
         )
 
+    def _quantities(self, index: int, width: int) -> list[str]:
+        """Names of the quantities in rows of `width` numbers, of which the last are step and event."""
+        return [text(core.study_column(self._handle, index, place)) for place in range(width - len(WHOLE))]
+
+    def _columns(self, index: int, numbers: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """Rows of the extension by the names of result files, in their order: time, step, ..., event."""
+        names = self._quantities(index, numbers.shape[1])
+        found = dict(zip([*names, *WHOLE], numbers.T, strict=True))
+        return {name: found[name] for name in (names[0], WHOLE[0], *names[1:], WHOLE[1])}
+
     def _derivatives(
         self, index: int, rows: int, varied: int, count: int, width: int
     ) -> dict[str, dict[str, NDArray[np.float64]]]:
         """By the number varied, then by quantity; those of stability, from work2 on, have none."""
-        quantities = [name for name in _columns(width) if name not in WHOLE]
+        quantities = self._quantities(index, width)
         if "work2" in quantities:
             quantities = quantities[: quantities.index("work2")]
         values = core.derivatives_take(rows, varied, len(quantities), count)
@@ -202,18 +212,3 @@ def element_test(
         sensitivities=sensitivities,
     )
     return Study(test).run_test(test.name)
-
-
-@cache
-def _columns(width: int) -> tuple[str, ...]:
-    """Names of the columns of `width` numbers, of which the last are step and event, in the order of result files."""
-    names = [text(core.quantity_name(index)) for index in range(width - 2)]
-    return (names[0], "step", *names[1:], "event")
-
-
-def _columns_of(numbers: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-    """Rows of the extension by the names of result files, in their order."""
-    names = _columns(numbers.shape[1])
-    quantities = [name for name in names if name not in WHOLE]
-    found = dict(zip([*quantities, *WHOLE], numbers.T, strict=True))
-    return {name: found[name] for name in names}

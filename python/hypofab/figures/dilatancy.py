@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hypofab.figures.style import COLUMN, STYLE
-from hypofab.results.drained import DrainedTest, critical_ratio, critical_void_ratio, dilatancy_points, rowe
+from hypofab.model.materials import Material
+from hypofab.results.drained import DrainedTest, critical_ratio, dilatancy_points, rowe
 
 MARKERS = "osD^v<>phX*"
 
@@ -40,7 +41,7 @@ def stress_dilatancy(groups: Mapping[str, Sequence[DrainedTest]], friction_angle
         return figure
 
 
-def critical_states(groups: Mapping[str, Sequence[DrainedTest]], parameters: Mapping[str, float]) -> Figure:
+def critical_states(groups: Mapping[str, Sequence[DrainedTest]], material: Material) -> Figure:
     """Ends of tests in e-log p and q-p, with the model's critical state lines; open points: not yet critical there.
 
     A test counts as critical at its end where the slope |d eps_v/d eps_1| over its last 2 % of strain is below 0.05.
@@ -61,9 +62,9 @@ def critical_states(groups: Mapping[str, Sequence[DrainedTest]], parameters: Map
                 right.plot(test.p[-1], test.q[-1], **style)
                 highest = max(highest, float(test.p[-1]))
         p = np.geomspace(10, 2 * highest, 80)
-        left.plot(p, critical_void_ratio(p, parameters), "k-", linewidth=1.2, label="model, $e_c(p)$")
+        left.plot(p, material.limiting_void_ratios(p)[:, 1], "k-", linewidth=1.2, label="model, $e_c(p)$")
         p = np.array([0, 1.1 * highest])
-        right.plot(p, critical_ratio(parameters["phi_c"]) * p, "k-", linewidth=1.2, label=r"model, $\varphi_c$")
+        right.plot(p, critical_ratio(material["phi_c"]) * p, "k-", linewidth=1.2, label=r"model, $\varphi_c$")
         left.set(xscale="log", xlabel="$p$ [kPa]", ylabel="void ratio $e$")
         right.set(xlabel="$p$ [kPa]", ylabel="$q$ [kPa]", xlim=(0, None), ylim=(0, None))
         left.legend(fontsize=7)

@@ -1,6 +1,7 @@
 """Figures of paths: void ratio over the logarithm of mean stress, and loops of cycles."""
 
-from collections.abc import Mapping
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import rc_context
@@ -12,27 +13,33 @@ from hypofab.figures import measured as laboratory
 from hypofab.figures.style import COLUMN, STYLE, legend, line_style
 from hypofab.results.element_tests import Run, TestResult
 from hypofab.results.measured import Measured
-from hypofab.tensors import Array
 
-LIMITS = (("e_i0", "e_i", (0, (7, 2))), ("e_c0", "e_c", (0, (3, 2))), ("e_d0", "e_d", (0, (1, 1.5))))
-"""Parameter, symbol and dashes of the limiting void ratios."""
+if TYPE_CHECKING:
+    from hypofab.model.materials import Material
 
-
-def limiting_void_ratio(e_0: float, p: Array, parameters: Mapping[str, float]) -> Array:
-    """Void ratio at a mean stress, in the unit of h_s, by Bauer's law (theory.md Eq. 6); e_0: that at p = 0."""
-    ratio = 3 * (np.asarray(p) + parameters.get("p_t", 0.0)) / parameters["h_s"]
-    return e_0 * np.exp(-(ratio ** parameters["n"]))
+LIMITS = (("e_d", (0, (1, 1.5))), ("e_c", (0, (3, 2))), ("e_i", (0, (7, 2))))
+"""Symbol and dashes of the limiting void ratios, in the library's order: densest, critical, loosest."""
 
 
-def _limits(axes: Axes, parameters: Mapping[str, float], among_others: bool) -> None:
-    """The three limiting curves over the range of the axes, with their symbols at the right end."""
+def _limits(axes: Axes, material: "Material", among_others: bool) -> None:
+    """The limiting curves over the range of the axes, with their symbols at the right end."""
     p = np.geomspace(*axes.get_xlim(), 200)
-    for name, symbol, dashes in LIMITS:
-        curve = limiting_void_ratio(parameters[name], p, parameters)
+    for (symbol, dashes), curve in reversed(list(zip(LIMITS, material.limiting_void_ratios(p).T, strict=True))):
         axes.plot(p, curve, color="0.45", linestyle=dashes, linewidth=1.0, zorder=1.5)
         place = {"textcoords": "offset points", "va": "center", "annotation_clip": False, "color": "0.25"}
-        note = rf"${symbol}$" + (f"\n{parameters['phi_c']:g}°" if among_others else "")
+        note = rf"${symbol}$" + (f"\n{material['phi_c']:g}°" if among_others else "")
         axes.annotate(note, (p[-1], curve[-1]), (4, 0), **place)
+
+
+def _materials(run: Run) -> "list[Material]":
+    """The materials of a run's tests, each once; none where the compiled library is not here, as in a source tree."""
+    if find_spec("hypofab._core") is None:
+        return []
+    from hypofab.model.materials import Material
+
+    known = [test.material for test in run.tests if test.material is not None]
+    materials = (one if isinstance(one, Material) else Material(**one) for one in known)
+    return list(dict.fromkeys(materials))
 
 
 def compression(run: Run, *, limits: bool = True, measured: Measured | None = None) -> Figure:
@@ -58,10 +65,7 @@ def compression(run: Run, *, limits: bool = True, measured: Measured | None = No
             middle = np.sqrt(low * high)
             low, high = middle / np.sqrt(10), middle * np.sqrt(10)
         axes.set_xlim(low, high)
-        materials: list[Mapping[str, float]] = []
-        for test in run.tests:
-            if limits and test.material is not None and test.material not in materials:
-                materials.append(test.material)
+        materials = _materials(run) if limits else []
         for material in materials:
             _limits(axes, material, len(materials) > 1)
         axes.set_xlim(low, high)

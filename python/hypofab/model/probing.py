@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 from hypofab.errors import InputError, Status, error_of
 from hypofab.library import check, core, interruptible, last_message
 from hypofab.model.materials import Material
-from hypofab.model.points import Branch, State
+from hypofab.model.points import Branch
+from hypofab.model.states import State
 from hypofab.results.probes import Ellipsoid, Probes
 from hypofab.tensors import Array, components, coordinates, many_components
 

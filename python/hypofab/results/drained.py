@@ -100,11 +100,6 @@ def rowe(dilatancy: Array, friction_angle: float) -> Array:
     return 3 * (ratio - 1) / (ratio + 2)
 
 
-def critical_void_ratio(p: Array, parameters: Mapping[str, float]) -> Array:
-    """e_c of the model at a mean stress, in the unit of h_s."""
-    return parameters["e_c0"] * np.exp(-((3 * np.asarray(p) / parameters["h_s"]) ** parameters["n"]))
-
-
 def critical_ratio(friction_angle: float) -> float:
     """q/p at the critical state in triaxial compression."""
     sine = np.sin(np.radians(friction_angle))
