@@ -29,11 +29,11 @@
 /** Copy a text (NULL: none) to a buffer of `size` characters, filled up with zeros. */
 void core_text(const char *text, char *buffer, size_t size);
 
-/** The state of CORE_STATE numbers, and back. */
+/** The state of core_state_size numbers, and back. */
 hypofab_state core_unpack_state(const double *numbers);
 void core_pack_state(const hypofab_state *state, double *numbers);
 
-/** The material of CORE_MATERIAL numbers, and back. */
+/** The material of core_material_size numbers, and back. */
 hypofab_material core_unpack_material(const double *numbers);
 void core_pack_material(const hypofab_material *material, double *numbers);
 
@@ -56,7 +56,7 @@ void core_message(char *text, size_t size);
 void core_status_text(int status, char *text, size_t size);
 void core_version(char *text, size_t size);
 void core_quantity_name(int index, char *text, size_t size);
-/** CORE_MATERIAL and CORE_STATE. */
+/** core_material_size and core_state_size. */
 void core_sizes(int *numbers);
 /** numbers: parameters, state variables, their numbers, place of the intergranular strain, of the void ratio. */
 int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size);

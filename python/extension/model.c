@@ -4,7 +4,7 @@
 
 #include "core.h"
 
-_Static_assert(sizeof(hypofab_state) == CORE_STATE * sizeof(double), "a state is its numbers");
+_Static_assert(sizeof(hypofab_state) == core_state_size * sizeof(double), "a state is its numbers");
 
 void core_text(const char *text, char *buffer, size_t size) {
   memset(buffer, 0, size);
@@ -51,8 +51,8 @@ void core_quantity_name(int index, char *text, size_t size) {
 }
 
 void core_sizes(int *numbers) {
-  numbers[0] = CORE_MATERIAL;
-  numbers[1] = CORE_STATE;
+  numbers[0] = core_material_size;
+  numbers[1] = core_state_size;
 }
 
 int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size) {

@@ -47,7 +47,8 @@ def test_the_wheel_holds_what_runs_and_nothing_else() -> None:
         "__init__.pyi",
         "libhypofab.so.0.1",
         "bin/hypofab",
-        "laboratory/__init__.py",
+        "laboratory/catalogue.json",
+        "model/described.pyi",
     ):
         assert f"hypofab/{wanted}" in names
     assert sum(name.endswith((".so.0.1", ".so")) for name in names) == 2

@@ -89,21 +89,33 @@ def deck_of(tests: Iterable[Test]) -> dict[str, Any]:
     deck: dict[str, list] = {"materials": [], "states": [], "tests": []}
     for index, test in enumerate(tests):
         place = f"{index + 1}"
-        material = {"name": place, "parameters": test.material.parameters()}
-        if not test.material.memory_size:
-            material["intergranular"] = False
-        delta = {"components": test.state.memory} if test.state.memory.any() else {"zero": True}
-        state = {"name": place, "material": place, "stress": test.state.stress, "void_ratio": test.state.void_ratio}
+        deck["materials"].append(_material(place, test.material))
+        deck["states"].append({"name": place, "material": place} | _state(test.state))
         options = {"integrator": test.integrator, "tolerance": test.tolerance, "stability": test.stability or None}
         options["sensitivities"] = list(test.sensitivities) or None
-        deck["materials"].append(material)
-        deck["states"].append(state | {"delta": delta})
         deck["tests"].append(
             {"name": test.name, "state": place}
             | {key: value for key, value in options.items() if value is not None}
             | {"steps": [step.mapping() if isinstance(step, Step) else dict(step) for step in test.steps]}
         )
     return deck
+
+
+def _material(name: str, material: Material) -> dict[str, Any]:
+    """The material of a deck; where its intergranular strain is off, the deck says so."""
+    is_off = material.model.memory is not None and material.memory_size == 0
+    given = {"name": name, "model": material.model.name, "parameters": material.parameters()}
+    return given | ({"intergranular": False} if is_off else {})
+
+
+def _state(state: State) -> dict[str, Any]:
+    """The keys of a state that say what it is in."""
+    model = state.model
+    given = {"stress": state.stress, "void_ratio": state.variables[model.void_ratio]}
+    if model.memory is not None:
+        given["delta"] = {"components": state.memory} if state.memory.any() else {"zero": True}
+    others = {name: value for name, value in state.variables.items() if name not in (model.void_ratio, model.memory)}
+    return given | ({"variables": others} if others else {})
 
 
 def deck_text(deck: Mapping[str, Any]) -> str:

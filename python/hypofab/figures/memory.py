@@ -22,6 +22,7 @@ from hypofab.figures import probes as probe_figures
 from hypofab.figures import sensitivities as sensitivity_figures
 from hypofab.figures import surfaces as probe_surfaces
 from hypofab.figures.envelopes import response_envelopes
+from hypofab.model.materials import Material
 from hypofab.model.probing import Subspace, fit_ellipsoid, triangles
 from hypofab.results import vtp
 from hypofab.results.cycles import accumulation_of
@@ -205,7 +206,8 @@ def _classical(name: str, probe: Probes, basis: Array, unit: str) -> EnvelopeSer
     """One state in the axisymmetric plane: coordinates are the axial part and sqrt(2) times the lateral one."""
     space = Subspace(basis)
     direction, response = space.coordinates(probe.direction), space.coordinates(probe.response)
-    delta = space.coordinates(probe.delta) / (probe.material["R"] or 1.0)
+    size = probe.material.memory_size if isinstance(probe.material, Material) else 0.0
+    delta = space.coordinates(probe.delta) / (size or 1.0)
     return EnvelopeSeries(
         name or "response",
         np.degrees(np.arctan2(direction[:, 1], direction[:, 0])),

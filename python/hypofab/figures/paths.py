@@ -25,9 +25,11 @@ def _limits(axes: Axes, material: "Material", among_others: bool) -> None:
     """The limiting curves over the range of the axes, with their symbols at the right end."""
     p = np.geomspace(*axes.get_xlim(), 200)
     for (symbol, dashes), curve in reversed(list(zip(LIMITS, material.limiting_void_ratios(p).T, strict=True))):
+        if np.isnan(curve).any():  # a model without this limit
+            continue
         axes.plot(p, curve, color="0.45", linestyle=dashes, linewidth=1.0, zorder=1.5)
         place = {"textcoords": "offset points", "va": "center", "annotation_clip": False, "color": "0.25"}
-        note = rf"${symbol}$" + (f"\n{material['phi_c']:g}°" if among_others else "")
+        note = rf"${symbol}$" + (f"\n{material['phi_c']:g}°" if among_others and 'phi_c' in material else "")
         axes.annotate(note, (p[-1], curve[-1]), (4, 0), **place)
 
 

@@ -50,8 +50,8 @@ class ProbedState(Protocol):
         """(6,)"""
 
     @property
-    def delta(self) -> Array:
-        """Intergranular strain, (6,)."""
+    def memory(self) -> Array:
+        """Intergranular strain, (6,); zero where there is none."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,8 +99,8 @@ class Probes:
 
     @property
     def delta(self) -> Array:
-        """Intergranular strain of the state probed."""
-        return self.state.delta
+        """Intergranular strain of the state probed; zero where it has none."""
+        return self.state.memory
 
     @property
     def unloaded(self) -> bool:
@@ -153,7 +153,7 @@ class _Probed:
     """A state as far as envelopes.json tells it."""
 
     stress: Array
-    delta: Array
+    memory: Array
 
 
 def _ellipsoid(summary: dict[str, Any] | None, distances: Array) -> Ellipsoid | None:
