@@ -57,7 +57,7 @@ class Step:
         """With the same keys and values."""
         return isinstance(other, Step) and self._given == other._given
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment] # as Python has it for what can be compared but changed
 
     def mapping(self) -> dict[str, Any]:
         """The step as decks have it."""
@@ -91,7 +91,11 @@ def deck_of(tests: Iterable[Test]) -> dict[str, Any]:
         place = f"{index + 1}"
         deck["materials"].append(_material(place, test.material))
         deck["states"].append({"name": place, "material": place} | _state(test.state))
-        options = {"integrator": test.integrator, "tolerance": test.tolerance, "stability": test.stability or None}
+        options: dict[str, Any] = {
+            "integrator": test.integrator,
+            "tolerance": test.tolerance,
+            "stability": test.stability or None,
+        }
         options["sensitivities"] = list(test.sensitivities) or None
         deck["tests"].append(
             {"name": test.name, "state": place}
@@ -111,7 +115,7 @@ def _material(name: str, material: Material) -> dict[str, Any]:
 def _state(state: State) -> dict[str, Any]:
     """The keys of a state that say what it is in."""
     model = state.model
-    given = {"stress": state.stress, "void_ratio": state.variables[model.void_ratio]}
+    given: dict[str, Any] = {"stress": state.stress, "void_ratio": state.variables[model.void_ratio]}
     if model.memory is not None:
         given["delta"] = {"components": state.memory} if state.memory.any() else {"zero": True}
     others = {name: value for name, value in state.variables.items() if name not in (model.void_ratio, model.memory)}

@@ -29,7 +29,7 @@ def _limits(axes: Axes, material: "Material", among_others: bool) -> None:
             continue
         axes.plot(p, curve, color="0.45", linestyle=dashes, linewidth=1.0, zorder=1.5)
         place = {"textcoords": "offset points", "va": "center", "annotation_clip": False, "color": "0.25"}
-        note = rf"${symbol}$" + (f"\n{material['phi_c']:g}°" if among_others and 'phi_c' in material else "")
+        note = rf"${symbol}$" + (f"\n{material['phi_c']:g}°" if among_others and "phi_c" in material else "")
         axes.annotate(note, (p[-1], curve[-1]), (4, 0), **place)
 
 

@@ -26,6 +26,7 @@ class Material(ParameterNames, Mapping[str, float]):
 
     model: Model
     """which model they are of"""
+    _numbers: Array
 
     def __init__(self, model: str | None = None, /, **parameters: float) -> None:
         """Parameters of a model (None: the sand); those that are left out take the value of the description."""
