@@ -119,7 +119,8 @@ ensure_python_alone() {
   cp "$1" "$stamp"
 }
 
-# build FOLDER TITLE OPTION... [-- TARGET...]: configure and build; all targets when none is named.
+# build FOLDER TITLE OPTION... [-- TARGET...]: configure and build; all targets when none is named. The variable generator
+# may name another than Ninja.
 build() {
   local folder=$1 title=$2
   local -a options=() target=()
@@ -129,6 +130,6 @@ build() {
     shift
   done
   (($# < 2)) || target=(--target "${@:2}")
-  stage "Configuring $title" cmake -G Ninja -S "$root" -B "$folder" "${options[@]}" &&
-    stage "Building $title" cmake --build "$folder" "${target[@]}"
+  stage "Configuring $title" cmake -G "${generator:-Ninja}" -S "$root" -B "$folder" "${options[@]}" &&
+    stage "Building $title" cmake --build "$folder" --parallel "$(nproc)" "${target[@]}"
 }

@@ -1,13 +1,17 @@
-# A library exports the names of a list, one a line with comments after #, or those that a C header declares, and no other.
-#   cmake -DLIBRARY=file (-DNAMES=list | -DCOMPILER=cc -DHEADER=file.h) -P check_exports.cmake
+# A library exports the names of a list, one a line with comments after #, or those that C headers declare, and no other.
+#   cmake -DLIBRARY=file (-DNAMES=list | -DCOMPILER=cc -DHEADERS=folder) -P check_exports.cmake
 execute_process(COMMAND nm -D --defined-only --format=posix ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n ]+ [A-Z] [^\n]*" symbols "${symbols}")
 list(TRANSFORM symbols REPLACE " .*" "")
 if(NAMES)
   file(STRINGS ${NAMES} wanted REGEX "^[^#]")
 else()
-  execute_process(COMMAND ${COMPILER} -E -P ${HEADER} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL "hypofab_[A-Za-z0-9_]+\\(" wanted "${text}")
+  file(GLOB headers ${HEADERS}/*.h)
+  foreach(header IN LISTS headers)
+    execute_process(COMMAND ${COMPILER} -E -P ${header} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX MATCHALL "hypofab_[A-Za-z0-9_]+\\(" names "${text}")
+    list(APPEND wanted ${names})
+  endforeach()
   list(TRANSFORM wanted REPLACE "\\(" "")
 endif()
 list(LENGTH wanted count)
