@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "cli/parse.h"
 
 enum { KEY_AXES = 0x300, KEY_TURN };
@@ -47,7 +48,7 @@ static void parse_turn(struct argp_state *state, const char *text, axes_options 
   begin(chosen);
   if (text[0] < 'x' || text[0] > 'z' || text[1] != ':')
     argp_error(state, "--turn: '%s'; expected x, y or z, a colon and degrees: z:30", text);
-  const double angle = parse_number(state, "--turn", text + 2) * acos(-1.0) / 180.0;
+  const double angle = parse_number(state, "--turn", text + 2) * HYPOFAB_PI / 180.0;
   const int first = (text[0] - 'x' + 1) % 3, second = (text[0] - 'x' + 2) % 3;
   for (int k = 0; k < 3; k++) {
     const double a = chosen->rotation[first][k], b = chosen->rotation[second][k];

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/angle.h"
 #include "cli/commands.h"
 #include "cli/contact_options.h"
 #include "cli/describe_report.h"
@@ -65,7 +66,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &chosen->contacts; return 0;
     case KEY_FRICTION: describe->friction = parse_positive(state, "--friction", text); return 0;
     case KEY_ANGLE:
-      describe->friction = tan(parse_positive(state, "--friction-angle", text) * acos(-1.0) / 180.0);
+      describe->friction = tan(parse_positive(state, "--friction-angle", text) * HYPOFAB_PI / 180.0);
       return 0;
     case KEY_SLIDING: describe->sliding_threshold = parse_positive(state, "--sliding", text); return 0;
     case KEY_BINS: describe->bins = (int)parse_positive(state, "--bins", text); return 0;

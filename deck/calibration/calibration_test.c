@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 #include "deck/calibration/calibration_resolve.h"
 #include "deck/resolve/resolve.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
+static const double degree = HYPOFAB_PI / 180.0;
 
 static hypofab_status check_number(const deck_source *source, unsigned entry, const char *key, const double *value,
                                    double least, const char *expected) {

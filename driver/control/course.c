@@ -6,7 +6,7 @@
 #include "base/message.h"
 #include "driver/quantity/frame.h"
 
-static const double radians = 1.0 / HYPOFAB_DEGREES;
+static const double radians = HYPOFAB_PI / 180.0;
 
 /* Integrating a rotation by 0.02 rad with a method of fifth order changes its radius by less than 1e-13. */
 static const double largest_turn = 0.02;

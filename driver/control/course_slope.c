@@ -7,7 +7,7 @@
 #include "driver/control/course.h"
 #include "driver/quantity/frame.h"
 
-static const double radians = 1.0 / HYPOFAB_DEGREES;
+static const double radians = HYPOFAB_PI / 180.0;
 
 void course_slope(const hypofab_step *step, const double stress[6], double slope[6][6]) {
   const hypofab_turn *turn = &step->turn;

@@ -1,10 +1,11 @@
 /* Presets along a direction in stress or strain space, and with rotating principal axes. */
 #include <math.h>
 
+#include "base/angle.h"
 #include "driver/presets/preset_row.h"
 #include "driver/tensor.h"
 
-static const double radians = 3.14159265358979323846 / 180.0;
+static const double radians = HYPOFAB_PI / 180.0;
 
 #define ANY .lower = -INFINITY, .upper = INFINITY, .expected = "a number"
 #define GIVEN ANY, .need = HYPOFAB_REQUIRED

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 #include "driver/probe/sphere.h"
 #include "driver/tensor.h"
 
@@ -88,7 +89,7 @@ static void combine(const hypofab_subspace *space, const double *coordinates, do
 
 static void fill_circle(const hypofab_subspace *space, int n, double (*directions)[6]) {
   for (int i = 0; i < n; i++) {
-    const double angle = 360.0 * i / n * acos(-1.0) / 180.0;
+    const double angle = 360.0 * i / n * HYPOFAB_PI / 180.0;
     const double coordinates[2] = {cos(angle), sin(angle)};
     combine(space, coordinates, directions[i]);
   }

@@ -1,6 +1,7 @@
 /* Directional stiffness, second-order work and flow direction of one probe. */
 #include <math.h>
 
+#include "base/angle.h"
 #include "driver/quantity/state.h"
 #include "driver/tensor.h"
 
@@ -16,7 +17,7 @@ static double angle_between_deviators(const double a[6], const double b[6]) {
     v[k] = s[k] / length - t[k] / other;
   }
   /* Kahan: accurate also near 0 and 180 degrees. */
-  return 2.0 * atan2(tensor_norm(v), tensor_norm(u)) * 180.0 / acos(-1.0);
+  return 2.0 * atan2(tensor_norm(v), tensor_norm(u)) * 180.0 / HYPOFAB_PI;
 }
 
 void hypofab_probe_measure(hypofab_imposed imposed, const hypofab_material *material, const hypofab_state *state,

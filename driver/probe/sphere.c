@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/angle.h"
+
 /* The rings of a set of n points: poles are rings of one point. */
 typedef struct rings {
   int n, count;    /* of points, of rings between the poles */
@@ -9,12 +11,10 @@ typedef struct rings {
   double per_area; /* cells per unit of cos(colatitude) */
 } rings;
 
-static const double pi = 3.14159265358979323846;
-
 static rings make_rings(int n) {
   rings r = {.n = n, .cap = acos(1.0 - 2.0 / n), .per_area = n / 2.0};
-  const double between = pi - 2.0 * r.cap;
-  r.count = (int)lround(between / sqrt(4.0 * pi / n)); /* cells about as high as wide */
+  const double between = HYPOFAB_PI - 2.0 * r.cap;
+  r.count = (int)lround(between / sqrt(4.0 * HYPOFAB_PI / n)); /* cells about as high as wide */
   /* With three points on each ring at least. */
   if (r.count > (n - 2) / 3) r.count = (n - 2) / 3;
   if (r.count < 1) r.count = 1;
@@ -25,7 +25,7 @@ static rings make_rings(int n) {
 static int points_before(const rings *r, int k) {
   if (k <= 0) return 1;
   if (k >= r->count) return r->n - 1;
-  const double border = r->cap + (pi - 2.0 * r->cap) * k / r->count;
+  const double border = r->cap + (HYPOFAB_PI - 2.0 * r->cap) * k / r->count;
   return (int)lround(r->per_area * (1.0 - cos(border)));
 }
 
@@ -46,7 +46,7 @@ void sphere_points(int n, double (*points)[3]) {
     /* Borders of the zone of exactly (end - first) cells, and the circle that halves its area. */
     const double height = -1.0 + (first + end) / r.per_area / 2.0, radius = sqrt(1.0 - height * height);
     for (int j = first; j < end; j++) {
-      const double angle = 2.0 * pi * azimuth(k, j - first, end - first);
+      const double angle = 2.0 * HYPOFAB_PI * azimuth(k, j - first, end - first);
       points[j][0] = radius * cos(angle);
       points[j][1] = radius * sin(angle);
       points[j][2] = height;

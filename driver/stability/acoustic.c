@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "driver/tensor.h"
 
 /* Planes of the first search, about 6 degrees apart: the determinant is a polynomial of degree 6 in the normal. */
@@ -137,7 +138,7 @@ static double refine(search *s, double normal[3]) {
 
 /* Plane number k of a half sphere: a Fibonacci lattice. */
 static void lattice(int k, double normal[3]) {
-  const double golden = M_PI * (3.0 - sqrt(5.0)), z = 1.0 - (k + 0.5) / N_PLANES, r = sqrt(1.0 - z * z);
+  const double golden = HYPOFAB_PI * (3.0 - sqrt(5.0)), z = 1.0 - (k + 0.5) / N_PLANES, r = sqrt(1.0 - z * z);
   normal[0] = r * cos(golden * k);
   normal[1] = r * sin(golden * k);
   normal[2] = z;

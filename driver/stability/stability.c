@@ -15,7 +15,7 @@
 /* Principal stresses closer than this, relative to the largest, count as equal. */
 static const double equal = 1e-9;
 
-static double degrees(double radians) { return radians * HYPOFAB_DEGREES; }
+static double degrees(double radians) { return radians * 180.0 / HYPOFAB_PI; }
 
 /*
  * Angle between the normal of a plane and the direction of the most compressive principal stress, or the space of such

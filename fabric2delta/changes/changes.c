@@ -4,9 +4,10 @@
 #include <stdlib.h>
 
 #include "base/message.h"
-#include "fabric2delta/fabric/rose.h"
+#include "base/angle.h"
 #include "fabric2delta/changes/snapshot.h"
 #include "fabric2delta/fabric/fabric.h"
+#include "fabric2delta/fabric/rose.h"
 #include "fabric2delta/stream/contact_stream.h"
 
 static hypofab_status refuse(const char *path, snapshot_problem problem, const contact_pair *pair) {
@@ -124,8 +125,9 @@ static void describe(const snapshot_comparison *comparison, int64_t particles, r
     change->fabric_before[i] = scale * comparison->sums[0][i] + lost;
     change->fabric_after[i] = scale * comparison->sums[1][i] + won;
   }
-  change->turn = comparison->persisting ? sqrt(comparison->square_turn / (double)comparison->persisting) * 180.0 / M_PI
-                                        : (double)NAN;
+  change->turn = comparison->persisting
+                     ? sqrt(comparison->square_turn / (double)comparison->persisting) * 180.0 / HYPOFAB_PI
+                     : (double)NAN;
   for (int k = 0; k < 2; k++) change->rose[k] = rose_result(&roses[k]);
 }
 

@@ -7,12 +7,13 @@
 #include <stdbool.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 #include "hypofab.h"
 
 /* Singular values below this share of the largest one count as zero: the angles do not determine the coefficients. */
 static const double rank_tolerance = 1e-8;
 
-static double radians(double degrees) { return degrees * M_PI / 180.0; }
+static double radians(double degrees) { return degrees * HYPOFAB_PI / 180.0; }
 
 hypofab_status hypofab_fabric_probe_rates(const hypofab_fabric_change *change, double angle, double strain,
                                           const int axes[2], hypofab_fabric_probe *probe) {
@@ -224,7 +225,7 @@ hypofab_status hypofab_fabric_zones(double a_n, double stress_ratio, double no_g
    */
   const double bound[2] = {stress_ratio - 0.5 * (a_n + 1.0), stress_ratio - 0.5 * (a_n - 1.0)};
   for (int k = 0; k < 2; k++) {
-    no_gain[k] = 45.0 + atan(bound[k]) * 180.0 / M_PI;
+    no_gain[k] = 45.0 + atan(bound[k]) * 180.0 / HYPOFAB_PI;
     no_loss[k] = no_gain[k] + 180.0;
   }
   return HYPOFAB_OK;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 #include "fabric2delta/fabric/direction_bins.h"
 #include "fabric2delta/stream/contact_stream.h"
 
@@ -28,8 +29,8 @@ static void describe_bin(const direction_bins *bins, int i, double total, unsign
   const bool any = sum->contacts > 0.0;
   direction_bins_limits(bins, i, bin->polar, bin->azimuth);
   for (int k = 0; k < 2; k++) {
-    bin->polar[k] *= 180.0 / M_PI;
-    bin->azimuth[k] *= 180.0 / M_PI;
+    bin->polar[k] *= 180.0 / HYPOFAB_PI;
+    bin->azimuth[k] *= 180.0 / HYPOFAB_PI;
   }
   bin->contacts = (int64_t)sum->contacts;
   bin->density = sum->contacts * bins->count / total;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/angle.h"
+
 void contact_stress_scale(double volume, const double sum[3][3], double stress[3][3]) {
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) stress[i][j] = volume > 0.0 ? 0.0 - sum[j][i] / volume : NAN;
@@ -36,7 +38,7 @@ void contact_stress_ratios(int dimension, const double stress[6], double *q_over
   *q_over_p = *sin_phi = NAN;
   if (!(p > 0.0)) return;
   *q_over_p = size(dimension, deviator) / p;
-  *sin_phi = dimension == 3 ? sin(hypofab_friction_angle(stress) * acos(-1.0) / 180.0) : 0.5 * *q_over_p;
+  *sin_phi = dimension == 3 ? sin(hypofab_friction_angle(stress) * HYPOFAB_PI / 180.0) : 0.5 * *q_over_p;
 }
 
 void contact_stress_describe(int dimension, double volume, const double normal[3][3], const double tangential[3][3],

@@ -6,12 +6,11 @@
 #include <gsl/gsl_integration.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 
 /* Points per direction: harmonics of degree 2 are averaged to rounding and those of degree 8 to 1e-8 over sectors of 90
  * degrees, the largest that occur; smaller bins do better. */
 enum { N_POINTS = 10 };
-
-static const double pi = 3.14159265358979323846;
 
 hypofab_status direction_bins_make(direction_bins *bins, int dimension, int wanted) {
   *bins = (direction_bins){.dimension = dimension, .count = wanted};
@@ -40,10 +39,10 @@ static double sense_of(int dimension, const double n[3]) {
 
 /* Bin of a unit vector with z >= 0 (y >= 0 in the plane). Rounding at the last edge is caught. */
 static int bin_of(const direction_bins *bins, const double n[3]) {
-  if (bins->dimension == 2) return (int)(atan2(n[1], n[0]) / pi * bins->count) % bins->count;
+  if (bins->dimension == 2) return (int)(atan2(n[1], n[0]) / HYPOFAB_PI * bins->count) % bins->count;
   int ring = at_most((int)(bins->rings * sqrt(fmax(0.0, 1.0 - n[2]))), bins->rings - 1);
   int sectors = 4 * (2 * ring + 1);
-  double turn = atan2(n[1], n[0]) / (2.0 * pi);
+  double turn = atan2(n[1], n[0]) / (2.0 * HYPOFAB_PI);
   int sector = at_most((int)((turn < 0.0 ? turn + 1.0 : turn) * sectors), sectors - 1);
   return 4 * ring * ring + sector;
 }
@@ -66,7 +65,7 @@ typedef void (*visitor)(const double n[3], double share, void *user);
 
 static void integrate_arc(const direction_bins *bins, int index, const gsl_integration_glfixed_table *points,
                           visitor at, void *user) {
-  double width = pi / bins->count;
+  double width = HYPOFAB_PI / bins->count;
   for (size_t i = 0; i < N_POINTS; i++) {
     double phi, weight;
     gsl_integration_glfixed_point(index * width, (index + 1) * width, i, &phi, &weight, points);
@@ -78,8 +77,8 @@ static void integrate_arc(const direction_bins *bins, int index, const gsl_integ
 void direction_bins_limits(const direction_bins *bins, int index, double polar[2], double azimuth[2]) {
   if (bins->dimension == 2) {
     for (int k = 0; k < 2; k++) {
-      polar[k] = 0.5 * pi;
-      azimuth[k] = (index + k) * pi / bins->count;
+      polar[k] = 0.5 * HYPOFAB_PI;
+      azimuth[k] = (index + k) * HYPOFAB_PI / bins->count;
     }
     return;
   }
@@ -87,7 +86,7 @@ void direction_bins_limits(const direction_bins *bins, int index, double polar[2
   for (int k = 0; k < 2; k++) {
     const double radius = (double)(ring + k) / bins->rings;
     polar[k] = acos(1.0 - radius * radius);
-    azimuth[k] = (sector + k) * 2.0 * pi / sectors;
+    azimuth[k] = (sector + k) * 2.0 * HYPOFAB_PI / sectors;
   }
 }
 
@@ -95,7 +94,7 @@ static void integrate_cell(const direction_bins *bins, int index, const gsl_inte
                            visitor at, void *user) {
   double polar[2], azimuth[2];
   direction_bins_limits(bins, index, polar, azimuth);
-  const double area = 2.0 * pi / bins->count;
+  const double area = 2.0 * HYPOFAB_PI / bins->count;
   for (size_t i = 0; i < N_POINTS; i++) {
     double theta, of_theta;
     gsl_integration_glfixed_point(polar[0], polar[1], i, &theta, &of_theta, points);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 
 /* A normal whose part in the plane is shorter has no direction there. */
 static const double shortest = 1e-9;
@@ -25,8 +26,8 @@ void rose_add(rose_sum *sum, const double normal[3]) {
   const double u = normal[sum->axes[0]], v = normal[sum->axes[1]], length = hypot(u, v);
   if (!(length > shortest)) return;
   double angle = atan2(v, u); /* from -pi to pi; half a turn is nothing to an axis */
-  if (angle < 0.0) angle += M_PI;
-  const int bin = (int)(angle / M_PI * sum->rose.bins);
+  if (angle < 0.0) angle += HYPOFAB_PI;
+  const int bin = (int)(angle / HYPOFAB_PI * sum->rose.bins);
   sum->rose.count[bin < sum->rose.bins ? bin : 0]++;
   sum->rose.contacts++;
   const double x = u / length, y = v / length;
@@ -41,7 +42,7 @@ hypofab_rose rose_result(const rose_sum *sum) {
   const double trace = sum->fabric[0] + sum->fabric[1];
   const double cosine = 2.0 * (sum->fabric[0] - sum->fabric[1]) / trace, sine = 4.0 * sum->fabric[2] / trace;
   rose.anisotropy = rose.contacts ? hypot(cosine, sine) : (double)NAN;
-  rose.direction = rose.contacts ? 90.0 / M_PI * atan2(sine, cosine) : (double)NAN;
+  rose.direction = rose.contacts ? 90.0 / HYPOFAB_PI * atan2(sine, cosine) : (double)NAN;
   if (rose.direction < 0.0) rose.direction += 180.0;
   return rose;
 }

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 #include "fabric2delta/fabric/fabric.h"
 #include "fabric2delta/statistics/interval.h"
 
@@ -186,7 +187,7 @@ static hypofab_status collect(const hypofab_bootstrap *bootstrap, int k, double 
   numbers[ANISOTROPY] = plain.anisotropy;
   numbers[CORRECTED] = noiseless.anisotropy;
   numbers[WEIGHT] = map.weight;
-  numbers[ANGLE] = acos(fmax(-1.0, fmin(1.0, product / (R * R)))) * 180.0 / M_PI;
+  numbers[ANGLE] = acos(fmax(-1.0, fmin(1.0, product / (R * R)))) * 180.0 / HYPOFAB_PI;
   return HYPOFAB_OK;
 }
 

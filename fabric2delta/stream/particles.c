@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/angle.h"
 #include "base/text/table.h"
 #include "fabric2delta/formats/lammps_dump.h"
 
@@ -71,12 +72,12 @@ static hypofab_status check_sizes(const table *data, const table_value *values) 
 }
 
 static particle particle_of(const particle_list *list, const table *data, const table_value *values, bool plane) {
-  const double pi = acos(-1.0);
   particle one = {.id = -1};
   if (list->has & PARTICLE_HAS_ID) one.id = values[ID].whole;
   if (data->column[DIAMETER]) one.radius = 0.5 * values[DIAMETER].real;
   if (data->column[RADIUS]) one.radius = values[RADIUS].real;
-  one.volume = plane ? pi * one.radius * one.radius : 4.0 / 3.0 * pi * one.radius * one.radius * one.radius;
+  one.volume =
+      plane ? HYPOFAB_PI * one.radius * one.radius : 4.0 / 3.0 * HYPOFAB_PI * one.radius * one.radius * one.radius;
   if (data->column[VOLUME]) one.volume = values[VOLUME].real;
   double square = 0.0;
   for (int i = 0; i < (plane ? 2 : 3); i++) {

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "base/message.h"
 #include "umat/sand/estimate_peak.h"
 #include "umat/sand/operations.h"
@@ -15,7 +16,7 @@
 enum { PHI_C, P_T, H_S, N_EXPONENT, E_D0, E_C0, E_I0, ALPHA, BETA, N_PARAMETERS = 16 };
 enum { VOID_RATIO = 6 };
 
-static const double degree = 3.14159265358979323846 / 180.0;
+static const double degree = HYPOFAB_PI / 180.0;
 /* Loosest and densest packing over the critical void ratio, where index tests do not tell. */
 static const double loosest_ratio = 1.15, densest_ratio = 0.6;
 /* A peak counts when it is this much above the critical friction angle [deg]. */

@@ -1,9 +1,10 @@
 /* Closed forms of the direct estimates. */
 #include <math.h>
 
+#include "base/angle.h"
 #include "umat/sand/estimate_peak.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
+static const double degree = HYPOFAB_PI / 180.0;
 
 int estimate_hardness(const compression_points *c, double *h_s, double *n) {
   const double exponent = log(c->e[0] * c->index[1] / (c->e[1] * c->index[0])) / log(c->p[1] / c->p[0]);
