@@ -46,6 +46,12 @@ def test_wrong_parameters_are_named(sand: hypofab.Material, change: object, mess
         hypofab.Material("clay_of_mars")
 
 
+def test_a_material_without_parameters_of_the_memory_has_none() -> None:
+    eight = {"phi_c": 33, "h_s": 1e6, "n": 0.25, "e_d0": 0.55, "e_c0": 0.95, "e_i0": 1.05, "alpha": 0.25, "beta": 1.5}
+    assert hypofab.Material(**eight).memory_size == 0
+    assert hypofab.Material(**eight, m_R=5).memory_size == 1e-4
+
+
 def test_a_state_has_the_variables_of_its_description(state: hypofab.State) -> None:
     assert list(state.variables) == list(state.model.variables)
     assert hypofab.State(state.stress, **state.variables) == state == pickle.loads(pickle.dumps(state))

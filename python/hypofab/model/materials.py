@@ -29,7 +29,10 @@ class Material(ParameterNames, Mapping[str, float]):
     _numbers: Array
 
     def __init__(self, model: str | None = None, /, **parameters: float) -> None:
-        """Parameters of a model (None: the sand); those that are left out take the value of the description."""
+        """Parameters of a model (None: the sand); those that are left out take the value of the description.
+
+        Without any parameter of the intergranular strain there is none.
+        """
         known = model_of(model)
         unknown = [name for name in parameters if name not in known.parameters]
         if unknown:
@@ -44,6 +47,8 @@ class Material(ParameterNames, Mapping[str, float]):
         numbers = np.zeros(MATERIAL_SIZE)
         numbers[0] = known.index
         numbers[1 : 1 + len(values)] = values
+        if not any(known.parameters[name].of_memory for name in parameters):
+            numbers = core.memory_off(numbers)
         self._set(known, numbers)
 
     def _set(self, model: Model, numbers: Array) -> None:

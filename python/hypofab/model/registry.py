@@ -12,6 +12,9 @@ MATERIAL_SIZE, STATE_SIZE = map(int, core.sizes())
 """Length of the arrays that stand for a material (its model, parameters) and a state (stress, variables) in calls."""
 
 
+_OF_MEMORY = 1  # hypofab_parameter_role
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """What is known of one parameter: unit "deg", "stress" or "-", and admissible values."""
@@ -23,6 +26,8 @@ class Parameter:
     upper: float
     start: float
     """value where none is given; NaN: one must be given"""
+    of_memory: bool
+    """does it belong to the intergranular strain?"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,9 +106,10 @@ def model_of(name: str | None) -> Model:
 
 
 def _parameter(model: int, index: int) -> Parameter:
-    status, (lower, upper, start), _, name, unit, description = core.parameter_info(model, index)
+    status, (lower, upper, start), role, name, unit, description = core.parameter_info(model, index)
     check(status)
-    return Parameter(text(name), text(unit), text(description), float(lower), float(upper), float(start))
+    texts = text(name), text(unit), text(description)
+    return Parameter(*texts, float(lower), float(upper), float(start), int(role[0]) == _OF_MEMORY)
 
 
 def _variable(model: int, index: int) -> Variable:
