@@ -13,13 +13,15 @@ static hypofab_status out_of_memory(const lines *input) {
 }
 
 static hypofab_status refuse_long(const lines *input, int64_t number, size_t longest) {
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the line is longer than %zu characters; expected a text table",
-                      input->path, (long long)number, longest);
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, number - 1, NULL,
+                            "%s:%lld: the line is longer than %zu characters; expected a text table", input->path,
+                            (long long)number, longest);
 }
 
 static hypofab_status refuse_binary(const lines *input, int64_t number) {
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: a zero byte: this is a binary file; expected a text table",
-                      input->path, (long long)number);
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, number - 1, NULL,
+                            "%s:%lld: a zero byte: this is a binary file; expected a text table", input->path,
+                            (long long)number);
 }
 
 /* At least `size` bytes in a buffer. */

@@ -15,16 +15,16 @@ bool lammps_dump_begins(const char *text) { return !strncmp(text, item, strlen(i
 static hypofab_status refuse(const lines *input, const char *expected) {
   char text[80];
   snprintf(text, sizeof text, "%.75s", input->text);
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: '%s'; expected %s", input->path, (long long)input->number, text,
-                      expected);
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, input->number - 1, NULL, "%s:%lld: '%s'; expected %s",
+                            input->path, (long long)input->number, text, expected);
 }
 
 static hypofab_status next(lines *input, const char *expected) {
   bool more;
   hypofab_status status = lines_next(input, &more);
   if (status || more) return status;
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the file ends; expected %s", input->path, (long long)input->number,
-                      expected);
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, input->number - 1, NULL,
+                            "%s:%lld: the file ends; expected %s", input->path, (long long)input->number, expected);
 }
 
 static hypofab_status read_whole(lines *input, const char *expected, int64_t *value) {
@@ -106,8 +106,9 @@ hypofab_status lammps_dump_head(lines *input, const char *kind, const hypofab_co
       return hypofab_fail(HYPOFAB_BAD_FILE, "%s: no time step %lld; the last one is %lld", input->path,
                           (long long)format->timestep, (long long)head->timestep);
     if (!more)
-      return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the file ends; expected a line 'ITEM: ...' of its head",
-                          input->path, (long long)input->number);
+      return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, input->number - 1, NULL,
+                                "%s:%lld: the file ends; expected a line 'ITEM: ...' of its head", input->path,
+                                (long long)input->number);
     if (!lammps_dump_begins(input->text)) return refuse(input, "a line 'ITEM: ...'");
     if ((status = read_item(input, kind, format->dimension == 2, head, &complete))) return status;
     if (!complete) continue;

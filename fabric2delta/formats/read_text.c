@@ -30,9 +30,9 @@ static hypofab_status check_end(contact_reader *reader, const text_reader *own) 
   if (!own->options.no_more) return HYPOFAB_OK;
   hypofab_status status = lines_next(&reader->input, &more);
   if (status || !more || strncmp(reader->input.text, own->options.no_more, strlen(own->options.no_more))) return status;
-  return hypofab_fail(HYPOFAB_BAD_FILE,
-                      "%s:%lld: another time step begins; expected one, or the time step wanted to be named",
-                      reader->input.path, (long long)reader->input.number);
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, reader->input.number - 1, NULL,
+                            "%s:%lld: another time step begins; expected one, or the time step wanted to be named",
+                            reader->input.path, (long long)reader->input.number);
 }
 
 static hypofab_status fill_text(contact_reader *reader, contact_chunk *chunk) {
@@ -45,9 +45,9 @@ static hypofab_status fill_text(contact_reader *reader, contact_chunk *chunk) {
       lines_block(&reader->input, most, chunk->bytes, chunk->size - 1, &chunk->length, &chunk->first);
   if (status || own->left < 0) return status;
   if (chunk->length == 0)
-    return hypofab_fail(HYPOFAB_BAD_FILE,
-                        "%s:%lld: the file ends, but its head tells of %lld rows more; it was cut off",
-                        reader->input.path, (long long)before, (long long)own->left);
+    return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, before - 1, NULL,
+                              "%s:%lld: the file ends, but its head tells of %lld rows more; it was cut off",
+                              reader->input.path, (long long)before, (long long)own->left);
   own->left -= reader->input.number - before;
   /* A last line without its end counts as a line too. */
   if (own->left > 0 && chunk->bytes[chunk->length - 1] != '\n') own->left--;

@@ -8,8 +8,9 @@
 #include "base/text/number.h"
 
 static hypofab_status refuse(const lines *input, const char *expected) {
-  return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: '%.60s'; expected %s", input->path, (long long)input->number,
-                      input->text, expected);
+  return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, input->number - 1, NULL,
+                            "%s:%lld: '%.60s'; expected %s", input->path, (long long)input->number, input->text,
+                            expected);
 }
 
 /* ----------------------------------------------------------------- numbers */
@@ -31,8 +32,9 @@ static hypofab_status find_word(vtk_numbers *numbers) {
     hypofab_status status = lines_next(&numbers->input, &more);
     if (status) return status;
     if (!more)
-      return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the file ends amid its numbers; it was cut off",
-                          numbers->input.path, (long long)numbers->input.number);
+      return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, numbers->input.number - 1, NULL,
+                                "%s:%lld: the file ends amid its numbers; it was cut off", numbers->input.path,
+                                (long long)numbers->input.number);
     numbers->next = numbers->input.text;
   }
 }
@@ -63,8 +65,9 @@ static hypofab_status skip_numbers(lines *input, int64_t count) {
     hypofab_status status = lines_next(input, &more);
     if (status) return status;
     if (!more)
-      return hypofab_fail(HYPOFAB_BAD_FILE, "%s:%lld: the file ends amid its numbers; it was cut off", input->path,
-                          (long long)input->number);
+      return hypofab_fail_about(HYPOFAB_BAD_FILE, HYPOFAB_ABOUT_ROW, input->number - 1, NULL,
+                                "%s:%lld: the file ends amid its numbers; it was cut off", input->path,
+                                (long long)input->number);
     for (const char *p = input->text; *(p += strspn(p, " \t")); p += strcspn(p, " \t")) count--;
   }
   return count == 0 ? HYPOFAB_OK : refuse(input, "fewer numbers, as many as the section tells");
