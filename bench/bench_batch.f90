@@ -53,7 +53,7 @@ program bench_batch
   write (*, '(a, f0.1, a)') 'one scalar rate: ', rate_cost, ' ns'
   write (*, '(a)') ''
   write (*, '(a)') '                             ns per point              rates per     scalar     stress error (relative)'
- write (*, '(a)') 'set      states |strain|     and step   in rates  point, step     share      median      worst    '// &
+  write (*, '(a)') 'set      states |strain|     and step   in rates  point, step     share      median      worst    '// &
     'scalar path, ns'
   do set = 0, best_instructions()
     do i = 1, size(sizes)

@@ -11,7 +11,7 @@ target_compile_options(
   hypofab_flags
   INTERFACE $<$<COMPILE_LANG_AND_ID:C,GNU,Clang,AppleClang>:-Wall -Wextra>
             # -frecursive: every local variable on the stack, as Fortran 2018 has it; threads call the UMAT at once.
-            $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=f2018 -frecursive -fimplicit-none -Wall -Wextra -ffree-line-length-none>
+            $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=f2018 -frecursive -fimplicit-none -Wall -Wextra>
             # CMake before 3.28 asks flang for no optimisation; and flang takes temporary arrays from the heap unless told.
             $<$<AND:$<CONFIG:Release,RelWithDebInfo>,$<COMPILE_LANG_AND_ID:Fortran,LLVMFlang>>:-O3$<SEMICOLON>-fstack-arrays>
             # Traps for what the model must never do; the host of a UMAT may run with them.

@@ -31,8 +31,8 @@ contains
     integer, intent(in) :: n
     real(wp), intent(inout) :: lanes(n_lanes, n_fields)
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
-    real(wp) :: largest, length, inverse, along(6), size, turn, largest_delta, smallest_delta, first_length, switch, pressure, p_t, &
-                lowest
+    real(wp) :: largest, length, inverse, along(6), size, turn, largest_delta, smallest_delta, first_length, switch
+    real(wp) :: pressure, p_t, lowest
     integer :: i
     p_t = m%p_t
     lowest = smallest_pressure * m%h_s
@@ -97,7 +97,8 @@ contains
     integer(int64), intent(inout) :: tags(n_lanes, n_tags)
     real(wp) :: begins, straight, plane, axis, unfit !< 1 for yes, 0 for no: the vectoriser has no use for logicals
     real(wp) :: R, beta_r, inverse_R, inverse_beta, u, v, d1, d2, d3, d4, d5, d6, square, ahead, rho_square, log_rho, rho_beta
-  real(wp) :: inverse_v, ratio, x, kappa, power, speed, wanted, scale, whole, inverse, chi, decay, left, slope, h, guess, first, from_zero
+    real(wp) :: inverse_v, ratio, x, kappa, power, speed, wanted, scale, whole, inverse, chi, decay, left
+    real(wp) :: slope, h, guess, first, from_zero
     integer(int64) :: kind
     integer :: i
 
@@ -168,7 +169,8 @@ contains
       power = axis_power * axis - plane * inverse_beta + half * straight
       left = chosen(axis, decay * loss(decay, axis_power * beta_r, rho_beta), 1.0_wp - rho_beta)
       speed = chosen(plane, R * min(1.0_wp, sqrt(rho_square)), 1.0_wp)
-      speed = chosen(axis, R * axis_power * (1.0_wp - decay)**(axis_power - 1) / max(1.0e-100_wp, loss(decay, axis_power * beta_r, rho_beta)), speed)
+      speed = chosen(axis, R * axis_power * (1.0_wp - decay)**(axis_power - 1) / &
+                     max(1.0e-100_wp, loss(decay, axis_power * beta_r, rho_beta)), speed)
       ! The direction of delta: tanh x and sech x on a plane path, parts of d and of the normal part of delta on a straight one.
       whole = sqrt(rho_square)
       inverse = 1.0_wp / max(whole, negligible)
@@ -185,7 +187,8 @@ contains
       wanted = merge(wanted, min(wanted, from_zero), max(x, half - axis) > 0.0_wp)
       slope = speed * chosen(plane, left * lanes(i, l_node_along), (axis_power - 1) * decay / max(1.0_wp - decay, 1.0e-100_wp))
       h = 2.0_wp * wanted / max(speed + sqrt(speed**2 + 2.0_wp * slope * wanted), 1.0e-100_wp)
-      guess = log(max(decay, negligible) / max(negligible, 1.0_wp - sqrt(sqrt(min(0.9_wp, max(ahead, 0.0_wp) + wanted * inverse_R)))))
+      guess = log(max(decay, negligible) / &
+                  max(negligible, 1.0_wp - sqrt(sqrt(min(0.9_wp, max(ahead, 0.0_wp) + wanted * inverse_R)))))
       guess = merge(guess, 1.0e100_wp, guess > 0.0_wp)
       h = chosen(axis, min(guess, merge(h, 1.0e100_wp, speed > 0.0_wp)), h)
       h = chosen(plane + axis, h, wanted)

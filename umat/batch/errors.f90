@@ -36,7 +36,8 @@ contains
       do k = 0, 3
         !GCC$ ivdep
         do i = 1, width
-          modes(i, k) = modes(i, k) + factor * mode_of(k, f(i, comp, 0), f(i, comp, 1), f(i, comp, 2), f(i, comp, 3), f(i, comp, 4))**2
+          modes(i, k) = modes(i, k) + factor * &
+                        mode_of(k, f(i, comp, 0), f(i, comp, 1), f(i, comp, 2), f(i, comp, 3), f(i, comp, 4))**2
         end do
       end do
     end do

@@ -117,7 +117,8 @@ contains
     real(wp), intent(in) :: lanes(n_lanes, n_fields), place(width), far(width)
     integer(int64), intent(in) :: tags(n_lanes, n_tags)
     type(node_type), intent(inout) :: node
-    real(wp) :: x, decay, inverse, sine, argument, log_rho, u, kappa, beta_r, chi, R, along, across, speed, rho, left, lost, ahead, power
+    real(wp) :: x, decay, inverse, sine, argument, log_rho, u, kappa, beta_r, chi, R, along, across, speed
+    real(wp) :: rho, left, lost, ahead, power
     integer(int64) :: tag
     integer :: i
     beta_r = m%beta_r

@@ -145,7 +145,8 @@ contains
       !GCC$ unroll 8
       do round = 1, most_iterations
         speed = middle + t * (odd1 + t * (even1 + t * (odd2 + t * even2)))
-        covered = before + t * (middle + t * (odd1 * (1.0_wp / 2) + t * (even1 * (1.0_wp / 3) + t * (odd2 * (1.0_wp / 4) + t * even2 * (1.0_wp / 5)))))
+        covered = before + t * (middle + t * (odd1 * (1.0_wp / 2) + &
+                                     t * (even1 * (1.0_wp / 3) + t * (odd2 * (1.0_wp / 4) + t * even2 * (1.0_wp / 5)))))
         t = t + (2.0_wp * ahead - covered) / max(speed, slowest * nodes%strain(i, 4), vanishing_length)
         t = max(-0.8_wp, min(3.0_wp, t))
       end do

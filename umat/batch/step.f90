@@ -78,7 +78,8 @@ contains
     !GCC$ ivdep
     do i = 1, width
       w%going(i) = merge(1.0_wp, 0.0_wp, tags(b + i, t_outcome) == outcome_going)
-      w%scale(i) = sqrt(max(nothing, (part_of_pressure / origin%inverse_pressure(i))**2, lanes(b + i, l_stress)**2 + lanes(b + i, l_stress + 1)**2 + lanes(b + i, l_stress + 2)**2 + &
+      w%scale(i) = sqrt(max(nothing, (part_of_pressure / origin%inverse_pressure(i))**2, &
+                           lanes(b + i, l_stress)**2 + lanes(b + i, l_stress + 1)**2 + lanes(b + i, l_stress + 2)**2 + &
                             2.0_wp * (lanes(b + i, l_stress + 3)**2 + lanes(b + i, l_stress + 4)**2 + &
                                       lanes(b + i, l_stress + 5)**2)))
       w%tolerance(i) = tolerance * (least_share + (most_share - least_share) * &
