@@ -140,7 +140,7 @@ contains
       end do
       if (status /= status_ok) failed = failed + 1
     end do
- write (*, '(es8.1, 2(f11.0, f10.1, f13.1), 6es11.1, i6)') length, median(time(:, 1)), median(time(:, 1)) / rate_cost, &
+    write (*, '(es8.1, 2(f11.0, f10.1, f13.1), 6es11.1, i6)') length, median(time(:, 1)), median(time(:, 1)) / rate_cost, &
       evaluations(1), median(time(:, 2)), median(time(:, 2)) / rate_cost, evaluations(2), median(error), &
       quantile(error, 0.99_wp), maxval(error), median(tangent_error), quantile(tangent_error, 0.99_wp), &
       maxval(tangent_error), failed

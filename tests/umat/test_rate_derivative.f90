@@ -134,7 +134,7 @@ contains
     integer :: status
     m = material_from_props(all(at_void_ratio + 1:))
     associate (g => intergranular_direction(m, all(at_delta + 1:at_delta + 6)))
-   call rate_of_stress(m, all(at_stress + 1:at_stress + 6), all(at_void_ratio), g, all(1:6), branch, rates(1:6), status)
+      call rate_of_stress(m, all(at_stress + 1:at_stress + 6), all(at_void_ratio), g, all(1:6), branch, rates(1:6), status)
       rates(7:12) = merge(0.0_wp, delta_rate(m, g, all(1:6), branch), branch == branch_plain)
     end associate
     if (status /= status_ok) error stop 'a state is outside the domain'

@@ -144,7 +144,7 @@ contains
       variation = matmul(by_stress, d_stress)
       forth = rate_at(m, branch, stress + h * d_stress, m%e_c0, delta, d)
       back = rate_at(m, branch, stress - h * d_stress, m%e_c0, delta, d)
-     error = max(error, norm((forth - back) / (2.0_wp * h) - variation) / max(norm(variation), 1.0e-6_wp * norm(forth)))
+      error = max(error, norm((forth - back) / (2.0_wp * h) - variation) / max(norm(variation), 1.0e-6_wp * norm(forth)))
     end do
   end function error_at_border
 
@@ -167,7 +167,7 @@ function variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_
     g = intergranular_direction(m, delta)
     call operands(m, g, frame(:, 1), branch, x, weight)
     linear = linear_rate(m, h, sensitivities(m, void_ratio, h), x, weight)
- on_operands = operand_influence(m, g, ddot(g%direction, frame(:, 1)), ddot(g%direction, frame(:, 2)), branch, on_delta)
+    on_operands = operand_influence(m, g, ddot(g%direction, frame(:, 1)), ddot(g%direction, frame(:, 2)), branch, on_delta)
     call direct_parts(m, h, linear, frame, [ddot(x, frame(:, 1)), ddot(x, frame(:, 2))], on_operands, by_volume, factor, part)
     variation = factor * eta + dot_product(part(:, part_d), eta) * frame(:, 1) + &
                 dot_product(part(:, part_normal), eta) * frame(:, 2) + dot_product(part(:, part_that), eta) * h%that + &

@@ -50,7 +50,7 @@ contains
       kernel = kernel_type(begin_increment_avx2, begin_segment_avx2, attempt_short_avx2, attempt_step_avx2)
 #endif
     case default
-   kernel = kernel_type(begin_increment_portable, begin_segment_portable, attempt_short_portable, attempt_step_portable)
+      kernel = kernel_type(begin_increment_portable, begin_segment_portable, attempt_short_portable, attempt_step_portable)
     end select
   end function kernel_of
 

@@ -67,7 +67,7 @@ contains
         covered = nodes%length(i, last_node)
         nodes%last(i) = max(nodes%last(i), open_(i) * merge(1.0_wp, 0.0_wp, covered > ahead))
         ends = open_(i) * nodes%last(i) * merge(1.0_wp, 0.0_wp, abs(ahead - covered) <= close_by * ahead)
-       nodes%end(i) = chosen(ends, 1.0_wp + (ahead - covered) / max(nodes%strain(i, last_node), vanishing_length), nodes%end(i))
+        nodes%end(i) = chosen(ends, 1.0_wp + (ahead - covered) / max(nodes%strain(i, last_node), vanishing_length), nodes%end(i))
         open_(i) = open_(i) * nodes%last(i) - ends
       end do
       if (.not. any(open_ > half)) exit

@@ -113,7 +113,7 @@ contains
       do i = 1, width
         ! exp(swell) - 1 to the accuracy that a prediction deserves.
         swell = lanes(b + i, l_trace) * nodes%length(i, k)
-     w%d_void_ratio(i, k) = origin%volume(i) * swell * (1.0_wp + swell * (1.0_wp / 2 + swell * (1.0_wp / 6 + swell * ( &
+      w%d_void_ratio(i, k) = origin%volume(i) * swell * (1.0_wp + swell * (1.0_wp / 2 + swell * (1.0_wp / 6 + swell * ( &
                                                                             1.0_wp / 24 + swell * (1.0_wp / 120)))))
       end do
     end do
