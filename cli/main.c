@@ -37,7 +37,6 @@ static const struct command {
     {"cycles", cmd_python, "what accumulates in cyclic tests, over the number of cycles"},
     {"dilatancy", cmd_python, "stress-dilatancy and critical states of drained triaxial tests"},
     {"contacts", cmd_python, "contacts of HDF5, .npz or VTK XML as the .npy that hypofab reads"},
-    {"paper", cmd_python, "DEM runs of examples/dem and element tests beside a paper's results"},
 };
 
 static void print_help(FILE *stream) {

@@ -1,23 +1,32 @@
-"""`hypofab paper PAPER`: DEM runs and element tests beside a paper's results."""
+#!/usr/bin/env python3
+"""DEM runs and element tests beside a paper's results: prints the tables, writes the figures."""
 
 import argparse
+import sys
 from pathlib import Path
 
-from hypofab import papers
+from hypofab import HypofabError
+from hypofab.results import ResultError
+from papers import PAPERS, compare
 
-SOURCE = Path(__file__).parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The paper, its runs, and where its figures go."""
-    parser.add_argument("paper", choices=papers.PAPERS, help="; ".join(f"{k}: {v}" for k, v in papers.PAPERS.items()))
-    parser.add_argument("--runs", type=Path, metavar="DIR", help="run folders (examples/dem/results/PAPER)")
+def main() -> None:
+    """Compare the runs that are kept, or one's own."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("paper", choices=PAPERS, help="; ".join(f"{name}: {what}" for name, what in PAPERS.items()))
     parser.add_argument(
-        "--out", type=Path, default=SOURCE / "docs/papers/figures", metavar="DIR", help="for the figures"
+        "--runs", type=Path, help="folder of runs, or their packed file (examples/dem/results/PAPER.tar.xz)"
     )
+    parser.add_argument("--out", type=Path, default=ROOT / "docs/papers/figures", metavar="DIR", help="for the figures")
+    options = parser.parse_args()
+    runs = options.runs or ROOT / "examples/dem/results" / f"{options.paper}.tar.xz"
+    try:
+        print(compare(options.paper, runs, options.out))
+    except (ResultError, HypofabError) as error:
+        sys.exit(f"error: {error}")
 
 
-def run(options: argparse.Namespace) -> None:
-    """Print the tables and write the figures."""
-    runs = options.runs or SOURCE / "examples/dem/results" / options.paper
-    print(papers.compare(options.paper, runs, options.out))
+if __name__ == "__main__":
+    main()

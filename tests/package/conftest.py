@@ -2,6 +2,7 @@
 
 import json
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 import hypofab
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "examples" / "papers"))
 
 if Path(hypofab.__file__).is_relative_to(ROOT / "python"):
     pytest.exit("these tests are for the installed package: scripts/python_package", returncode=4)

@@ -82,7 +82,7 @@ def test_matplotlib_is_known_to_figures_alone() -> None:
         if any(module.split(".")[0] == "matplotlib" for module in python_imports(tree))
     }
     assert users
-    assert {name for name in users if not name.startswith(("hypofab.figures", "hypofab.papers"))} == set()
+    assert {name for name in users if not name.startswith("hypofab.figures")} == set()
 
 
 @pytest.mark.parametrize(

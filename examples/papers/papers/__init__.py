@@ -4,6 +4,8 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
+from papers.runs import run_folders
+
 PAPERS = {
     "000": "contact fabric and directional stiffness",
     "001": "strain probes of two-dimensional isotropic samples",
@@ -13,14 +15,16 @@ PAPERS = {
     "family": "beyond the papers: samples of different anisotropy",
     "convergence": "beyond the papers: size of samples and rate of loading",
 }
-"""What `python -m hypofab paper` compares."""
+"""What is compared; docs/papers/README.md names the papers."""
 
 
 def compare(paper: str, runs: Path, out: Path) -> str:
     """Compare one paper: write figures to `out` and return the text of its tables.
 
-    runs: folder that holds the run folders of examples/dem under the names the paper's module lists.
+    runs: folder that holds the run folders of examples/dem under the names the paper's module lists, or the packed file
+    that `keep` makes of them.
     """
-    function: Callable[[Path, Path], str] = import_module(f"hypofab.papers.paper_{paper}").compare
+    function: Callable[[Path, Path], str] = import_module(f"papers.paper_{paper}").compare
     out.mkdir(parents=True, exist_ok=True)
-    return function(runs, out)
+    with run_folders(runs) as folder:
+        return function(folder, out)

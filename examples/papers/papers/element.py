@@ -1,21 +1,20 @@
 """Element tests beside DEM runs: any deck, and the directional tests of paper 000 with delta from contact lists."""
 
-import json
 import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from hypofab.papers.program import run, run_json
-from hypofab.papers.runs import DemRun
-from hypofab.results import TestResult, read_run
+import hypofab
+from hypofab.results import TestResult
 from hypofab.results.probes import Envelope, read_probes
+from papers.runs import DemRun
 
 SMALL = 1e-3
 """Deviatoric strain of the secant stiffness (paper 000)."""
+R = 1e-4
+"""Size of the elastic strain range of the sand of paper 000."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,8 @@ def delta_of(sample: DemRun, c: float, corrected: bool) -> dict:
     """Delta of a state from the contacts of a sample; corrected: without the noise of their finite number."""
     if not corrected:
         return {"contacts": str(sample.contacts.resolve()), "c": c}
-    return {"components": run_json("delta", sample.contacts, f"--c={c:.9g}", "--corrected")["delta"]}
+    fabric = hypofab.fabric_of_file(sample.contacts).without_noise()
+    return {"components": fabric.delta(R, c).delta.tolist()}
 
 
 def deck(loadings: list[Loading], c: float, strain: float | None, *, corrected: bool = False) -> dict:
@@ -75,27 +75,17 @@ def deck(loadings: list[Loading], c: float, strain: float | None, *, corrected: 
     }
 
 
-@contextmanager
-def deck_file(deck: dict) -> Iterator[Path]:
-    """A deck as a file that is removed again; JSON is YAML, so that the deck needs no writer of its own."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "deck.yaml"
-        file.write_text(json.dumps(deck, indent=1), encoding="utf-8")
-        yield file
-
-
 def run_deck(deck: dict, *, may_stop: bool = False) -> dict[str, TestResult]:
     """Run the tests of a deck. may_stop: a test may stop early, as at a peak."""
-    with deck_file(deck) as file:
-        run("run", file, "-o", file.parent / "out", accept=(0, 1) if may_stop else (0,))
-        return {test.name: test for test in read_run(file.parent / "out").tests}
+    tests = hypofab.Study(deck).run()
+    return tests if may_stop else {name: test.check() for name, test in tests.items()}
 
 
 def run_envelopes(deck: dict) -> dict[str, Envelope]:
     """Run the envelopes of a deck."""
-    with deck_file(deck) as file:
-        run("envelope", file, "-o", file.parent / "out")
-        return {envelope.name: envelope for envelope in read_probes(file.parent / "out")}
+    with tempfile.TemporaryDirectory() as folder:
+        hypofab.Study(deck).write_envelopes(folder)
+        return {envelope.name: envelope for envelope in read_probes(folder)}
 
 
 def fabric_in_space(xx: float, yy: float, xy: float) -> list[float]:
@@ -118,22 +108,6 @@ def secants(tests: Mapping[str, TestResult]) -> dict[str, float]:
     return {name: float(np.interp(SMALL, test.eps_q, test.q)) / SMALL for name, test in tests.items()}
 
 
-@dataclass(frozen=True)
-class Fit:
-    """c fitted to measured ratios of stiffness by `hypofab fit-c`."""
-
-    c: float
-    lower: float
-    upper: float
-    """Bounds of the interval of 95 %."""
-    error: float
-    """Root-mean-square error of the logarithms of the ratios."""
-
-
-def fit_c(loadings: list[Loading], measured: Mapping[str, float], *, corrected: bool = False) -> Fit:
+def fit_c(loadings: list[Loading], measured: Mapping[str, float], *, corrected: bool = False) -> hypofab.FitOfC:
     """The c that fits the ratios of the measured stiffnesses [kPa] best."""
-    with deck_file(deck(loadings, 0.05, None)) as file:
-        targets = ",".join(f"{name}={value:.9g}" for name, value in measured.items())
-        options = ["--corrected"] if corrected else []
-        result = run_json("fit-c", file, "--target", targets, *options)
-    return Fit(result["c"], result["lower"], result["upper"], result["misfit"])
+    return hypofab.Study(deck(loadings, 0.05, None)).fit_c(measured, corrected=corrected)

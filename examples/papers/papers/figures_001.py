@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from hypofab.figures import INCH, STYLE, line_style
-from hypofab.papers import draw
 from hypofab.results import Array
+from papers import draw
 
 if TYPE_CHECKING:
-    from hypofab.papers.paper_001 import ElementFan, Fan
+    from papers.paper_001 import ElementFan, Fan
 
 MARKERS = "os^DvP"
 MECHANISMS = ("loss", "gain", "reorientation")
@@ -54,7 +54,7 @@ def responses(fans: list[Fan], element: list[ElementFan], path: Path) -> None:
             matrix, _ = fan.linear
             scale = 1e4 / stiffness
             stress_panel(stress, look, fan.strain, scale * fan.stress, scale * matrix, label)
-            change = np.array([snapshot["change"][:2] for snapshot in fan.changes["snapshots"]])
+            change = np.array([change.change[:2] for change in fan.changes])
             closed = [*range(len(change)), 0]
             fabric.plot(*change[closed].T, markersize=3, **(look | {"linewidth": 1.0}))
         for index, probes in enumerate(element):
@@ -107,13 +107,14 @@ def rates(fans: list[Fan], path: Path) -> None:
 
 def pooled_rose(fans: list[Fan], angle: float, mechanism: str) -> tuple[Array, complex]:
     """Counts per bin of all samples together for one direction of the probe, and a exp(2 i direction) of their law."""
-    roses = [fan.changes["snapshots"][int(np.argmin(np.abs(fan.alpha - angle)))][mechanism]["rose"] for fan in fans]
-    count = np.sum([rose["count"] for rose in roses], axis=0).astype(float)
-    total = sum(rose["contacts"] for rose in roses)
+    changes = [fan.changes[int(np.argmin(np.abs(fan.alpha - angle)))] for fan in fans]
+    roses = [change.lost_rose if mechanism == "loss" else change.gained_rose for change in changes]
+    count = np.sum([rose.count for rose in roses], axis=0).astype(float)
+    total = int(count.sum())
     turned = [
-        rose["contacts"] * rose["anisotropy"] * np.exp(2j * math.radians(rose["direction"]))
+        rose.count.sum() * rose.anisotropy * np.exp(2j * math.radians(rose.direction))
         for rose in roses
-        if rose["contacts"] > 0
+        if rose.count.any()
     ]
     return count, complex(sum(turned) / total) if total else 0j
 
@@ -170,8 +171,8 @@ def trends(fans: list[Fan], path: Path) -> None:
                 _trend(axes, fans, values, index, name.replace("dZ_", "dZ*, "))
             axes.set_title(mechanism)
         for index in range(5):
-            entries = [fan.changes["response"]["a"][index] for fan in fans]
-            _trend(total, fans, [(entry["value"], entry["error"]) for entry in entries], index, f"a{index + 1}")
+            entries = [fan.response.a[index] for fan in fans]
+            _trend(total, fans, [(entry.value, entry.error) for entry in entries], index, f"a{index + 1}")
         total.set_title("total, Eq. 19")
         loss.set_ylabel("coefficients, per unit strain")
         for axes in (loss, gain, total):

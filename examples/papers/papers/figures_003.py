@@ -10,12 +10,12 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from hypofab.figures import INCH, STYLE, line_style
-from hypofab.papers import draw
-from hypofab.papers.runs import read_table
 from hypofab.results import Array
+from papers import draw
+from papers.runs import read_table
 
 if TYPE_CHECKING:
-    from hypofab.papers.paper_003 import Test
+    from papers.paper_003 import Test
 
 Groups = dict[str, dict[str, "Test"]]
 
@@ -161,7 +161,7 @@ def roses(group: dict[str, Test], path: Path) -> None:
         for column, (name, test) in enumerate(group.items()):
             for row, index in enumerate((0, len(test.lists) - 1)):
                 axes = figure.add_subplot(2, len(group), row * len(group) + column + 1, projection="polar")
-                data = read_table(test.lists[index])
+                data = read_table(test.lists[index].parent, test.lists[index].name)
                 angle = np.arctan2(data["ny"], data["nx"]) % np.pi
                 count, edges = np.histogram(angle, bins=18, range=(0, np.pi))
                 density = count / count.mean()

@@ -9,12 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from hypofab.figures import line_style
-from hypofab.papers import draw
-from hypofab.papers.flow import amount_of, cross_section, octahedral
 from hypofab.results import Array
+from papers import draw
+from papers.flow import amount_of, cross_section, octahedral
 
 if TYPE_CHECKING:
-    from hypofab.papers.paper_004 import ElementProbes, Failure
+    from papers.paper_004 import ElementProbes, Failure
 
 ORDERS = ([0, 1, 2], [2, 1, 0], [1, 2, 0], [1, 0, 2], [2, 0, 1], [0, 2, 1])
 """Permutations of the axes: an isotropic sample answers all alike."""

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
+import hypofab
 from hypofab.figures import line_style
-from hypofab.papers import draw
-from hypofab.papers.element import SMALL, Fit, Loading, element_tests, fit_c, secants
-from hypofab.papers.program import run_json
-from hypofab.papers.runs import Curve, DemRun, read_curve, read_dem
 from hypofab.results import TestResult, paper000
+from papers import draw
+from papers.element import SMALL, Loading, element_tests, fit_c, secants
+from papers.runs import Curve, DemRun, read_curve, read_dem
 
 TESTS = {"A-0": ("aniso", "y"), "A-90": ("aniso", "x"), "I-0": ("iso", "y"), "I-90": ("iso", "x")}
 PAPER_STATES = {"iso": (0.642, 2.41, 0.033), "aniso": (0.640, 2.43, 0.324)}
@@ -56,9 +56,8 @@ def surface(path: Path, samples: dict[str, DemRun]) -> None:
     """Figure 4: the density of contact normals."""
     tensors = {}
     for name, sample in samples.items():
-        fabric = run_json("fabric", sample.contacts)
-        xx, yy, zz, xy, xz, yz = fabric["deviatoric_fabric"]
-        tensors[f"{name}, a = {fabric['anisotropy']:.3f}"] = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        fabric = hypofab.fabric_of_file(sample.contacts)
+        tensors[f"{name}, a = {fabric.anisotropy:.3f}"] = hypofab.matrix(fabric.deviatoric_fabric)
     draw.fabric_surfaces(path, tensors, size=95, limit=1.3)
 
 
@@ -83,7 +82,7 @@ def _zoom(axes: Axes, curves: dict[str, Curve] | dict[str, TestResult], place: t
     inset.tick_params(labelsize=7)
 
 
-def directional(runs: Path, prefix: str) -> tuple[dict[str, DemRun], dict[str, Curve], list[Loading], Fit]:
+def directional(runs: Path, prefix: str) -> tuple[dict[str, DemRun], dict[str, Curve], list[Loading], hypofab.FitOfC]:
     """Samples, DEM curves, element loadings and the fitted c of one set of runs."""
     samples = {name: read_dem(runs / f"{prefix}{name}") for name in ("iso", "aniso")}
     curves = {name: read_curve(runs / f"{prefix}{name}") for name in TESTS}
@@ -103,7 +102,7 @@ def compare(runs: Path, out: Path) -> str:
         element = {c: element_tests(loadings, c, strain) for c in (0.05, fit.c)}
         text += [
             f"{prefix.strip('_') or 'dense'} samples: c = {fit.c:.3g} ({fit.lower:.3g} to {fit.upper:.3g}),"
-            f" root-mean-square error of the logarithms of the ratios {fit.error:.3f}",
+            f" root-mean-square error of the logarithms of the ratios {fit.misfit:.3f}",
             states(samples),
             stiffness_table(
                 {

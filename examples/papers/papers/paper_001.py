@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from hypofab.papers import draw, figures_001
-from hypofab.papers.element import fabric_in_space, run_envelopes
-from hypofab.papers.program import run_json
-from hypofab.papers.runs import DemRun, read_dem, read_table
+import hypofab
 from hypofab.results import Array, ResultError
+from papers import draw, figures_001
+from papers.element import fabric_in_space, run_envelopes
+from papers.runs import DemRun, file_of, read_dem, read_table
 
 PRESSURE, VOID_RATIO = 100.0, 0.60
 """Of the sand in the element tests [kPa, -]."""
@@ -29,14 +29,16 @@ class Fan:
     """Norm of each probe."""
     stress: Array
     """Stress increments along x and y [kPa], shape (probes, 2)."""
-    changes: dict
-    """What `hypofab changes` says."""
+    changes: list[hypofab.FabricChange]
+    """Of each probe."""
+    response: hypofab.FabricResponse
+    """Fitted to them."""
 
     @property
     def coordination(self) -> float:
         """Z of paper 001: trace of F over particles that are no rattlers."""
-        fabric = self.changes["fabric_before"]
-        return fabric[0] + fabric[1]
+        fabric = self.changes[0].fabric_before
+        return float(fabric[0] + fabric[1])
 
     @property
     def friction(self) -> float:
@@ -52,12 +54,13 @@ class Fan:
 
     def rate(self, mechanism: str, which: str) -> Array:
         """dZ* or dA* of a mechanism for each probe."""
-        return np.array([snapshot[mechanism][which] for snapshot in self.changes["snapshots"]])
+        row, column = ("dZ", "dA").index(which), ("loss", "gain", "reorientation").index(mechanism)
+        return np.array([change.rates(self.strain.mean())[row, column] for change in self.changes])
 
     def coefficient(self, mechanism: str, name: str) -> tuple[float, float]:
         """A fitted coefficient and its standard error."""
-        entry = self.changes["response"][mechanism][name]
-        return entry["value"], entry["error"]
+        entry = getattr(getattr(self.response, mechanism), name)
+        return entry.value, entry.error
 
     def law(self, mechanism: str, which: str, alpha: Array) -> Array:
         """The fitted dZ* or dA* (Eq. 15 with the signs that follow from Eqs. 10 and 11)."""
@@ -74,24 +77,17 @@ class Fan:
 
 
 def read_fan(path: Path) -> Fan:
-    """Probes of one run folder, compared by `hypofab changes`."""
+    """Probes of one run folder, compared by their contact lists."""
     run = read_dem(path)
-    table = read_table(path / "probes.txt.gz")
+    table = read_table(path, "probes.txt")
     probes = table["alpha"] >= 0
     alpha = table["alpha"][probes]
     strain = np.hypot(table["eps_x"], table["eps_y"])[probes]
-    lists = [path / f"alpha_{angle:05.1f}_contacts.txt.gz" for angle in alpha]
-    changes = run_json(
-        "changes",
-        path / "before_contacts.txt.gz",
-        *lists,
-        "--angles",
-        ",".join(f"{angle:g}" for angle in alpha),
-        "--strain",
-        f"{strain.mean():.9g}",
-    )
+    lists = [file_of(path, f"alpha_{angle:05.1f}_contacts.txt") for angle in alpha]
+    changes = hypofab.changes(file_of(path, "before_contacts.txt"), lists)
+    response = hypofab.fit_fabric_response(alpha, np.array([change.rates(strain.mean()) for change in changes]))
     stress = np.column_stack([table["dsig_x_kPa"], table["dsig_y_kPa"]])[probes]
-    return Fan(run, alpha, strain, stress, changes)
+    return Fan(run, alpha, strain, stress, changes, response)
 
 
 def linear_map(alpha: Array, strain: Array, stress: Array) -> tuple[Array, float]:
@@ -124,7 +120,7 @@ class ElementFan:
 
 def element_fans(fan: Fan) -> list[ElementFan]:
     """The same probes of a sand with delta from the sample's fabric, smaller ones, and the same without memory."""
-    xx, yy, _, xy, _, _ = np.array(fan.changes["fabric_before"]) / fan.coordination
+    xx, yy, _, xy, _, _ = fan.changes[0].fabric_before / fan.coordination
     fabric = fabric_in_space(xx, yy, xy)
     size = float(fan.strain.mean())
     base = {"material": "sand", "p": PRESSURE, "void_ratio": VOID_RATIO}
@@ -183,7 +179,7 @@ def summary(fans: list[Fan]) -> str:
     rows, conditions = [], []
     for fan in fans:
         _, error = fan.linear
-        table = read_table(fan.run.path / "probes.txt.gz")
+        table = read_table(fan.run.path, "probes.txt")
         hold = table["alpha"] < 0
         in_gain = (fan.alpha > 18.4) & (fan.alpha < 71.6)
         in_loss = (fan.alpha > 198.4) & (fan.alpha < 251.6)
@@ -201,19 +197,19 @@ def summary(fans: list[Fan]) -> str:
             ]
         )
 
-        def number(entry: dict) -> str:
-            return f"{entry['value']:.0f} +- {entry['error']:.0f}"
+        def number(entry: hypofab.Estimate) -> str:
+            return f"{entry.value:.0f} +- {entry.error:.0f}"
 
-        response = fan.changes["response"]
+        response = fan.response
         conditions.append(
             [
                 fan.run.name,
-                *(number(entry) for entry in response["linear_if_zero"]),
-                number(response["loss"]["dZ_extension"]),
-                number(response["gain"]["dZ_compression"]),
-                number(response["loss"]["dZ_shear"]),
-                number(response["gain"]["dZ_shear"]),
-                f"{response['reorientation']['E']['value']:.2f}",
+                *(number(entry) for entry in response.linear),
+                number(response.loss.dZ_extension),
+                number(response.gain.dZ_compression),
+                number(response.loss.dZ_shear),
+                number(response.gain.dZ_shear),
+                f"{response.reorientation.E.value:.2f}",
             ]
         )
     head = ["sample", "N_p", "Z", "e", "stress, error of linear map", "lost in the zone of no loss, of the most"]
@@ -226,7 +222,7 @@ def summary(fans: list[Fan]) -> str:
 
 def compare(runs: Path, out: Path) -> str:
     """Figures 2 to 8 and the three conditions (Eq. 18)."""
-    folders = sorted(path.parent for path in runs.glob("*/probes.txt.gz"))
+    folders = sorted(path.parent for path in runs.glob("*/probes.txt*"))
     if not folders:
         raise ResultError(f"{runs}: no run folder of probe_strain.py; examples/dem/README.md says how to make them")
     fans = sorted((read_fan(folder) for folder in folders), key=lambda fan: -fan.coordination)

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
+import hypofab
 from hypofab.figures import line_style
-from hypofab.papers import draw
-from hypofab.papers.element import fabric_in_space, run_deck
-from hypofab.papers.program import run_json
-from hypofab.papers.runs import DemRun, read_dem, read_table
 from hypofab.results import Array, ResultError
+from papers import draw
+from papers.element import fabric_in_space, run_deck
+from papers.runs import DemRun, read_dem, read_table
 
 CONSOLIDATIONS = {
     "c_dep": "deposited, 50 kPa",
@@ -67,7 +67,7 @@ def memory(test: Cycles, kind: str) -> dict:
     """Delta of the state before the cycles: mobilised along the consolidation, or from the contacts of the sample."""
     if kind == "path":
         return {"mobilised": [1, 1, 1, 0, 0, 0] if test.isotropic else [-0.3, 1, 0, 0, 0, 0]}
-    xx, yy, _, xy, _, _ = run_json("fabric", test.sample.contacts)["fabric"]
+    xx, yy, _, xy, _, _ = hypofab.fabric_of_file(test.sample.contacts).fabric
     return {"fabric": fabric_in_space(xx, yy, xy)}
 
 
@@ -176,9 +176,11 @@ def table(tests: dict[str, Cycles], element: dict[str, dict[str, tuple[Array, Ar
 def compare(runs: Path, out: Path) -> str:
     """Figures 3 to 8 in kind, with element tests of the same stress cycles."""
     tests = {}
-    for path in sorted(runs.glob("*/cycles.txt.gz")):
+    for path in sorted(runs.glob("*/cycles.txt*")):
         run = read_dem(path.parent)
-        tests[path.parent.name] = Cycles(run, read_table(path), read_dem(runs / run.parameters["sample"]))
+        tests[path.parent.name] = Cycles(
+            run, read_table(path.parent, "cycles.txt"), read_dem(runs / run.parameters["sample"])
+        )
     if not tests:
         raise ResultError(f"{runs}: no run of cycle.py; examples/dem/README.md says how to make them")
     element = {kind: element_cycles(tests, kind) for kind in ("path", "fabric")}

@@ -5,18 +5,16 @@ Runs: samples of deposit.py under the names of the paper's Table 2 without "TS-"
 tests of the paper's Figures 6 and 7 must be there, the others may be missing.
 """
 
-import csv
-import io
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from hypofab.papers import draw, figures_003
-from hypofab.papers.element import fabric_in_space, run_deck
-from hypofab.papers.program import run as call
-from hypofab.papers.runs import Curve, DemRun, read_curve, read_dem
 from hypofab.results import Array, ResultError, TestResult
+from papers import draw, figures_003
+from papers.describe import describe_plane
+from papers.element import fabric_in_space, run_deck
+from papers.runs import Curve, DemRun, file_of, read_curve, read_dem
 
 METHODS = {"D": "deposition", "M": "layers", "I": "isotropic"}
 """How a sample is made, by the first letter of its name."""
@@ -104,17 +102,10 @@ def read_test(runs: Path, name: str) -> Test:
     folder = runs / f"bi_{name}"
     loaded = read_dem(folder)
     taken = loaded.results["notes"]["snapshots"]
-    lists = [folder / f"{entry['name']}_contacts.txt.gz" for entry in taken]
-    options = ["--plane", "--csv", "--friction-angle", str(loaded.friction), "--sliding", "0.9999"]
-    rows = list(csv.DictReader(io.StringIO(call("describe", *lists, *options))))
-    micro = {
-        name: np.array([float(row[name]) if row[name] else np.nan for row in rows])
-        for name in rows[0]
-        if name != "file"
-    }
+    lists = [file_of(folder, f"{entry['name']}_contacts.txt") for entry in taken]
     axis = "xyz".index(loaded.parameters["axis"])
     strain = np.array([-entry["strain"][axis] for entry in taken])
-    return Test(read_dem(runs / name), read_curve(folder), strain, micro, lists)
+    return Test(read_dem(runs / name), read_curve(folder), strain, describe_plane(lists, loaded.friction), lists)
 
 
 def element_tests(tests: dict[str, Test]) -> dict[str, TestResult]:

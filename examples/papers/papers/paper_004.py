@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hypofab.papers import draw, figures_004
-from hypofab.papers.element import run_deck, run_envelopes
-from hypofab.papers.flow import Flow, amount_of, flow_of, octahedral, octahedral_unit, range_of
-from hypofab.papers.program import run_json
-from hypofab.papers.runs import DemRun, read_dem, read_table
 from hypofab.results import Array, ResultError
+from papers import draw, figures_004
+from papers.describe import describe
+from papers.element import run_deck, run_envelopes
+from papers.flow import Flow, amount_of, flow_of, octahedral, octahedral_unit, range_of
+from papers.runs import DemRun, file_of, read_dem, read_table
 
 PRESSURE, VOID_RATIO = 100.0, 0.70
 """Of the sand in the element tests [kPa, -]."""
@@ -70,7 +70,7 @@ class Failure:
         """Diagonal of N of all contacts or of sliding ones; NaN when none slides."""
         if not sliding:
             return np.array(self.described["fabric"][:3])
-        contacts = read_table(self.run.path / "failure_contacts.txt.gz")
+        contacts = read_table(self.run.path, "failure_contacts.txt")
         normals, normal_force, shear = (
             np.column_stack([contacts[f"{name}{axis}"] for axis in "xyz"]) for name in ("n", "Fn", "Fs")
         )
@@ -82,7 +82,7 @@ class Failure:
 def read_failure(path: Path) -> Failure:
     """Probes of one run folder."""
     run = read_dem(path)
-    rows = read_table(path / "probes.txt.gz")
+    rows = read_table(path, "probes.txt")
     real = rows["number"] >= 0
 
     def vectors(name: str) -> Array:
@@ -90,7 +90,7 @@ def read_failure(path: Path) -> Failure:
 
     plastic = vectors("eps_irr")
     plastic = plastic[real] - plastic[~real]
-    described = run_json("describe", path / "failure_contacts.txt.gz", "--friction-angle", str(run.friction))
+    described = describe(file_of(path, "failure_contacts.txt"), run.friction)
     return Failure(run, vectors("dsig")[real], vectors("eps")[real], plastic, described)
 
 
@@ -217,7 +217,7 @@ def table(states: dict[str, Failure], element: dict[str, ElementProbes]) -> str:
 
 def read_states(runs: Path) -> dict[str, Failure]:
     """All states that are found: radial paths by their Lode angles, then the tangent ones."""
-    folders = sorted(path.parent for path in runs.glob("*/probes.txt.gz"))
+    folders = sorted(path.parent for path in runs.glob("*/probes.txt*"))
     states = [read_failure(folder) for folder in folders]
     if not any(state.lode == 0 for state in states):
         raise ResultError(f"{runs}: no run lode0 of probe_stress.py; examples/dem/README.md says how to make it")

@@ -12,10 +12,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from hypofab.figures import line_style
-from hypofab.papers import draw
-from hypofab.papers.element import SMALL, Loading, element_tests, secants
-from hypofab.papers.runs import DemRun, read_curve, read_dem
 from hypofab.results import Array, ResultError
+from papers import draw
+from papers.element import SMALL, Loading, element_tests, secants
+from papers.runs import DemRun, read_curve, read_dem
 
 SMALLER = 3e-4
 """Deviatoric strain of a second secant stiffness, nearer to the beginning."""

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
+import hypofab
 from hypofab.figures import line_style
-from hypofab.papers import draw
-from hypofab.papers.element import SMALL, Loading, element_tests, fit_c, secants
-from hypofab.papers.program import run_json
-from hypofab.papers.runs import DemRun, read_curve, read_dem
 from hypofab.results import Array, ResultError
+from papers import draw
+from papers.element import SMALL, Loading, element_tests, fit_c, secants
+from papers.runs import DemRun, read_curve, read_dem
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Member:
     @cached_property
     def vertical(self) -> float:
         """1.5 F_yy of the contacts: a with a sign, where the fabric is symmetric about y."""
-        return 1.5 * run_json("fabric", self.sample.contacts)["deviatoric_fabric"][1]
+        return 1.5 * float(hypofab.fabric_of_file(self.sample.contacts).deviatoric_fabric[1])
 
 
 def read_members(runs: Path) -> list[Member]:

@@ -1,13 +1,38 @@
-"""Read the folders that the scripts of examples/dem write."""
+"""Read the folders that the scripts of examples/dem write, and the packed files that `keep` makes of them."""
 
 import gzip
 import json
+import tarfile
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from hypofab.results import Array, ResultError
+
+
+@contextmanager
+def run_folders(runs: Path) -> Iterator[Path]:
+    """The folder that holds run folders: `runs` itself, or what the packed file `runs` holds, while the block lasts."""
+    if runs.is_dir():
+        yield runs
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            with tarfile.open(runs) as packed:
+                packed.extractall(folder, filter="data")
+        except (OSError, tarfile.TarError) as error:
+            raise ResultError(f"{runs}: {error}; examples/dem/README.md says how to make runs") from error
+        yield Path(folder)
+
+
+def file_of(folder: Path, name: str) -> Path:
+    """A text file of a run folder: plain, as unpacked, or with .gz behind its name, as the scripts write it."""
+    plain = folder / name
+    return plain if plain.exists() else folder / f"{name}.gz"
 
 
 @dataclass(frozen=True)
@@ -26,12 +51,12 @@ class DemRun:
     @property
     def contacts(self) -> Path:
         """The contact list of a sample."""
-        return self.path / "sample_contacts.txt.gz"
+        return file_of(self.path, "sample_contacts.txt")
 
     @property
     def particles(self) -> Path:
         """The particle list of a sample."""
-        return self.path / "sample_particles.txt.gz"
+        return file_of(self.path, "sample_particles.txt")
 
     @property
     def friction(self) -> float:
@@ -53,11 +78,12 @@ def read_dem(path: Path) -> DemRun:
     return DemRun(path, manifest["parameters"], manifest["results"])
 
 
-def read_table(path: Path) -> dict[str, Array]:
-    """Columns by name of a text table: lines with # in front, the last of which names the columns."""
+def read_table(folder: Path, name: str) -> dict[str, Array]:
+    """Columns by name of a text table of a run: lines with # in front, the last of which names the columns."""
+    path = file_of(folder, name)
     try:
-        with gzip.open(path, "rt", encoding="utf-8") as file:
-            lines = file.read().splitlines()
+        data = path.read_bytes()
+        lines = (gzip.decompress(data) if path.suffix == ".gz" else data).decode().splitlines()
     except OSError as error:
         raise ResultError(f"{path}: {error.strerror}") from error
     head = [line for line in lines if line.startswith("#")]
@@ -70,10 +96,10 @@ def read_table(path: Path) -> dict[str, Array]:
     if any(len(row) != len(names) for row in rows):
         raise ResultError(f"{path}: a row has not {len(names)} columns, as its header has")
     try:
-        data = np.array(rows, dtype=np.float64)
+        numbers = np.array(rows, dtype=np.float64)
     except ValueError as error:
         raise ResultError(f"{path}: {error}") from error
-    return {name: data[:, index] for index, name in enumerate(names)}
+    return {name: numbers[:, index] for index, name in enumerate(names)}
 
 
 @dataclass(frozen=True)
@@ -100,7 +126,7 @@ class Curve:
 def read_curve(path: Path) -> Curve:
     """History of a run of load.py; q and eps_q in the measures of von Mises, in two dimensions the differences."""
     run = read_dem(path)
-    columns = read_table(path / "history.txt.gz")
+    columns = read_table(path, "history.txt")
     strain = np.column_stack([columns[f"eps_{axis}"] for axis in "xyz"])
     stress = np.column_stack([columns[f"sig_{axis}_kPa"] for axis in "xyz"])
     axis = "xyz".index(run.parameters["axis"])

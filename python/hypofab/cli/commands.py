@@ -9,6 +9,5 @@ COMMANDS = {
     "cycles": "what accumulates in cyclic tests, over the number of cycles",
     "dilatancy": "stress-dilatancy and critical states of drained triaxial tests",
     "contacts": "contacts of HDF5, .npz or VTK XML as the .npy that hypofab reads",
-    "paper": "DEM runs of examples/dem and element tests beside a paper's results",
 }
 """Purpose of each by its name. Its module of this name here has add_arguments(parser) and run(options)."""
