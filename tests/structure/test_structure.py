@@ -25,8 +25,8 @@ MAY_USE = {
     "calibration": {"driver", "umat", "base"},
     "sampling": {"base"},
     "deck": {"calibration", "driver", "fabric2delta", "base"},
-    "cli": set(),
-    "python/extension": set(),
+    "cli": {"base"},  # what is in headers alone: libhypofab hides the rest
+    "python/extension": {"base"},
 }
 
 # A search in the text of a failure, which is for people: hypofab_last_subject() is for programs.
