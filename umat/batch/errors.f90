@@ -1,5 +1,5 @@
-!> What the errors of a step of many points side by side are, and what they ask of the next: missing_of, tail and growth_after
-!> of collocation.f90 and step.f90.
+!> What the errors of a step of many points side by side are, and what they ask of the next: missing_of and growth_after of
+!> collocation.f90 and step.f90.
 !>
 !> Compiled once per instruction set, each time as a module of its own name (kernel.cmake).
 module umat_batch_errors_portable
@@ -15,6 +15,7 @@ module umat_batch_errors_portable
   public :: missing_of, growth_after, size_of
 
   integer, parameter :: wp = real64
+  integer, parameter :: last_node = rules(rule_long)%n
   !> Weights of the modes.
   real(wp), parameter :: weight(0:most_nodes, 0:3) = rules(rule_long)%mode
   !> Exponent of theta in growth_after of step.f90.
@@ -28,7 +29,7 @@ contains
     type(nodes_type), intent(in) :: nodes
     real(wp), intent(in) :: f(width, 6, 0:most_nodes), coupling(width), scale(width)
     real(wp) :: missing(width)
-    real(wp) :: modes(width, 0:3), factor, none(width)
+    real(wp) :: modes(width, 0:3), factor, inverse_R
     integer :: i, k, comp
     modes = 0.0_wp
     do comp = 1, 6
@@ -42,9 +43,11 @@ contains
       end do
     end do
     modes = sqrt(modes)
-    missing = tail(modes, coupling) / scale
+    !GCC$ ivdep
+    do i = 1, width
+      missing(i) = tail(modes(i, 0), modes(i, 1), modes(i, 2), modes(i, 3), last_node, coupling(i)) / scale(i)
+    end do
     if (.not. m%intergranular) return
-    none = 0.0_wp
     ! Where the path measures length nothing is missing: the strain is the same at all nodes.
     do k = 0, 3
       !GCC$ ivdep
@@ -53,7 +56,11 @@ contains
                                   nodes%strain(i, 4)))
       end do
     end do
-    missing = max(missing, tail(modes, none) * (1.0_wp / m%R))
+    inverse_R = 1.0_wp / m%R
+    !GCC$ ivdep
+    do i = 1, width
+      missing(i) = max(missing(i), tail(modes(i, 0), modes(i, 1), modes(i, 2), modes(i, 3), last_node, 0.0_wp) * inverse_R)
+    end do
   end function missing_of
 
   !> A coefficient of the polynomial through values at the nodes.
@@ -64,30 +71,6 @@ contains
     real(wp) :: mode
     mode = weight(0, i) * f0 + weight(1, i) * f1 + weight(2, i) * f2 + weight(3, i) * f3 + weight(4, i) * f4
   end function mode_of
-
-  !> As tail in collocation.f90.
-  pure function tail(modes, coupling) result(missing)
-    real(wp), intent(in) :: modes(width, 0:3), coupling(width)
-    real(wp) :: missing(width)
-    real(wp) :: highest, before, ratio
-    real(wp), parameter :: trust = 0.3_wp
-    integer :: i
-    !GCC$ ivdep
-    do i = 1, width
-      before = sqrt(quotient(modes(i, 1), modes(i, 3)))
-      highest = max(modes(i, 0), merge(trust * modes(i, 1) * min(before, quotient(modes(i, 1), modes(i, 2))), 0.0_wp, &
-                                       modes(i, 2) > 0.0_wp))
-      ratio = min(sqrt(quotient(highest, modes(i, 2))), max(before, quotient(highest, modes(i, 1))))
-      missing(i) = highest * ratio * max(ratio**2, coupling(i))
-    end do
-  end function tail
-
-  !> a/b, at most 1.
-  elemental function quotient(a, b)
-    real(wp), intent(in) :: a, b
-    real(wp) :: quotient
-    quotient = merge(min(a, b) / max(b, nothing), 1.0_wp, a < b)
-  end function quotient
 
   !> Size of a tensor in every lane.
   pure function size_of(t) result(size)
@@ -123,5 +106,6 @@ contains
   end subroutine growth_after
 
   include 'series.inc'
+  include 'tail.inc'
 
 end module umat_batch_errors_portable

@@ -184,48 +184,9 @@ contains
         mode(:, i) = mode(:, i) + rule%mode(k, i) * f(:, k)
       end do
     end do
-    missing = tail([norm(mode(:, 0)), norm(mode(:, 1)), norm(mode(:, 2)), norm(mode(:, 3))], rule%n, coupling)
+    missing = tail(norm(mode(:, 0)), norm(mode(:, 1)), norm(mode(:, 2)), norm(mode(:, 3)), rule%n, coupling)
   end function missing_of
 
-  !> What the nodes leave out of an integral over the step, from the sizes of the four highest modes of the integrand.
-  !>
-  !> Modes of a smooth integrand fall geometrically. The rule itself misses mode 2 n, but mode n + 1 is missed at the nodes
-  !> inside and comes back through the rate. Fitted to true errors: for n = 2 mode 4, for n = 4 mode 7 in place of mode 8.
-  !> @param modes    sizes of the coefficients of degree n to n - 3; zero where there is none
-  !> @param n        nodes behind the start
-  !> @param coupling how strongly an error at the nodes comes back [-]
-  pure function tail(modes, n, coupling) result(missing)
-    real(wp), intent(in) :: modes(0:3), coupling
-    integer, intent(in) :: n
-    real(wp) :: missing
-    real(wp) :: highest, ratio
-    call decay(modes, highest, ratio)
-    ! Three nodes: mode 0 is the mean, which says little about how the others fall.
-    if (n == 2 .and. highest > ratio * modes(1)) ratio = quotient(highest, modes(1))
-    missing = highest * ratio * max(ratio**(n / 2), coupling)
-  end function tail
-
-  !> How the modes of an integrand fall.
-  !> @param modes   sizes of the coefficients of degree n to n - 3; zero where there is none
-  !> @param highest size of mode n, or what the others make of it: one mode alone may vanish by accident
-  !> @param ratio   of a mode to the one before, at most 1
-  pure subroutine decay(modes, highest, ratio)
-    real(wp), intent(in) :: modes(0:3)
-    real(wp), intent(out) :: highest, ratio
-    real(wp), parameter :: trust = 0.3_wp
-    real(wp) :: before !< how the modes before the highest fall: mode n - 2 may vanish by accident, too
-    before = sqrt(quotient(modes(1), modes(3)))
-    highest = modes(0)
-    if (modes(2) > 0.0_wp) highest = max(highest, trust * modes(1) * min(before, quotient(modes(1), modes(2))))
-    ratio = min(sqrt(quotient(highest, modes(2))), max(before, quotient(highest, modes(1))))
-  end subroutine decay
-
-  !> a/b, at most 1; nothing overflows.
-  pure function quotient(a, b)
-    real(wp), intent(in) :: a, b
-    real(wp) :: quotient
-    quotient = 1.0_wp
-    if (a < b) quotient = a / b
-  end function quotient
+  include 'tail.inc'
 
 end module umat_collocation

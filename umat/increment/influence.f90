@@ -101,7 +101,7 @@ contains
  at_end = combined(n, weight(:, n), 1.0_wp + dot_product(weight(:n, n), rates%diagonal(:n)), influence%on_stress, rates)
     rate = rate_at(n, at_end, rates)
     size = size_of(at_end) + left * size_of(rate)
-    call decay([mode_size(0), mode_size(1), mode_size(2), 0.0_wp], highest, ratio)
+    call decay(mode_size(0), mode_size(1), mode_size(2), 0.0_wp, highest, ratio)
     ! The rule misses mode 2 n of the rates.
     error = (highest * ratio**n / size + turn_missed(n, rates%that(:, 0), rates%that(:, n))) / share
     influence%on_stress = at_end + (end - 1.0_wp) * rate

@@ -58,7 +58,7 @@ contains
       end do
       sizes(i) = size_of(mode)
     end do
-    call decay([sizes, 0.0_wp], highest, ratio)
+    call decay(sizes(0), sizes(1), sizes(2), 0.0_wp, highest, ratio)
     error = highest * ratio**n / (share * max(size, tiny(size))) ! the rule misses mode 2 n
     if (pass > most_passes) error = max(error, change / max(size, tiny(size)))
   end subroutine influence_in_full

@@ -278,8 +278,8 @@ contains
     missing = 0.0_wp
     if (measures_length(leg%path)) return
     associate (n => rules(step%rule)%n, mode => rules(step%rule)%mode, strain => step%nodes%strain)
-      missing = tail([abs(dot_product(mode(:n, 0), strain(:n))), abs(dot_product(mode(:n, 1), strain(:n))), &
-                      abs(dot_product(mode(:n, 2), strain(:n))), abs(dot_product(mode(:n, 3), strain(:n)))], n, 0.0_wp)
+      missing = tail(abs(dot_product(mode(:n, 0), strain(:n))), abs(dot_product(mode(:n, 1), strain(:n))), &
+                     abs(dot_product(mode(:n, 2), strain(:n))), abs(dot_product(mode(:n, 3), strain(:n))), n, 0.0_wp)
     end associate
   end function missing_length
 
