@@ -66,7 +66,7 @@ contains
         call add_direction(sums%by_area, normal, c%area)
         call add_direction(sums%by_length, normal, length)
         if (length > 0.0_wp) call add_direction(sums%branch, c%branch / length, 1.0_wp)
-  if (sliding_limit >= 0.0_wp .and. shear > sliding_limit * c%normal_force) call add_to_network(sums%sliding, c, normal)
+        if (sliding_limit >= 0.0_wp .and. shear > sliding_limit * c%normal_force) call add_to_network(sums%sliding, c, normal)
         sums%normal_force = sums%normal_force + c%normal_force
         sums%shear_force = sums%shear_force + shear
         sums%branch_length = sums%branch_length + length

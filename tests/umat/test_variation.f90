@@ -150,7 +150,7 @@ contains
 
   !> Derivative of the stress rate in the direction of one eta and the change of stress that goes with it, put together from
   !> its factors.
-function variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_volume, eta, d_stress) result(variation)
+  function variation_at(m, branch, stress, void_ratio, delta, frame, on_delta, by_volume, eta, d_stress) result(variation)
     type(material_type), intent(in) :: m
     integer, intent(in) :: branch
     real(wp), intent(in) :: stress(6), void_ratio, delta(6), frame(6, 2), by_volume, eta(6), d_stress(6)

@@ -59,7 +59,7 @@ contains
       left = lanes(b + i, l_left)
       turned = min(x, reach_of_step)
       square = turned * turned
-    cosh_less_one = square * (1.0_wp / 2 + square * (1.0_wp / 24 + square * (1.0_wp / 720 + square * (1.0_wp / 40320))))
+      cosh_less_one = square * (1.0_wp / 2 + square * (1.0_wp / 24 + square * (1.0_wp / 720 + square * (1.0_wp / 40320))))
       sinh_ = turned * (1.0_wp + square * (1.0_wp / 6 + square * (1.0_wp / 120 + square * (1.0_wp / 5040))))
       ! sech(x_0 + x) = sech(x_0)/(1 + growth), tanh likewise.
       growth = cosh_less_one + along * sinh_

@@ -113,7 +113,7 @@ contains
       do i = 1, width
         ! exp(swell) - 1 to the accuracy that a prediction deserves.
         swell = lanes(b + i, l_trace) * nodes%length(i, k)
-      w%d_void_ratio(i, k) = origin%volume(i) * swell * (1.0_wp + swell * (1.0_wp / 2 + swell * (1.0_wp / 6 + swell * ( &
+        w%d_void_ratio(i, k) = origin%volume(i) * swell * (1.0_wp + swell * (1.0_wp / 2 + swell * (1.0_wp / 6 + swell * ( &
                                                                             1.0_wp / 24 + swell * (1.0_wp / 120)))))
       end do
     end do
@@ -132,7 +132,7 @@ contains
     w%u(:, :, 0) = 0.0_wp
     do j = 1, last_node
       do comp = 1, 6
-  w%u(:, comp, j) = rule%a(0, j) * w%f(:, comp, 0) + rule%a(1, j) * w%f(:, comp, 1) + rule%a(2, j) * w%f(:, comp, 2) + &
+        w%u(:, comp, j) = rule%a(0, j) * w%f(:, comp, 0) + rule%a(1, j) * w%f(:, comp, 1) + rule%a(2, j) * w%f(:, comp, 2) + &
                           rule%a(3, j) * w%f(:, comp, 3) + rule%a(4, j) * w%f(:, comp, 4)
       end do
     end do
@@ -187,7 +187,7 @@ contains
       call integrate_to_nodes(next)
       do k = 1, n
         correction(:, :, k) = next%u(:, :, k) - w%u(:, :, k)
-      call add_linear(m, origin, slopes, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k), correction(:, :, k), &
+        call add_linear(m, origin, slopes, nodes%x(:, :, k), nodes%weight(:, k), w%frozen(:, :, k), correction(:, :, k), &
                         unchanged, next%f(:, :, k))
       end do
       call integrate_to_nodes(next)
@@ -207,7 +207,7 @@ contains
         ratio = max(2.0_wp * change(i) / max(final(i), nothing), change(i) / previous(i))
         w%left(i) = chosen(active(i), change(i) * min(1.0_wp, ratio), w%left(i))
         fails = active(i) * merge(1.0_wp, 0.0_wp, min(ratio - 0.5_wp, w%left(i) - rounding * w%scale(i)) > 0.0_wp)
-       settled = active(i) * (1.0_wp - fails) * merge(1.0_wp, 0.0_wp, w%left(i) <= 0.5_wp * w%tolerance(i) * w%scale(i))
+        settled = active(i) * (1.0_wp - fails) * merge(1.0_wp, 0.0_wp, w%left(i) <= 0.5_wp * w%tolerance(i) * w%scale(i))
         active(i) = active(i) - fails - settled
         w%going(i) = w%going(i) - fails
         w%growth(i) = chosen(fails, too_many_sweeps, w%growth(i))

@@ -98,7 +98,7 @@ contains
     error = huge(error)
     if (.not. solved) return
 
- at_end = combined(n, weight(:, n), 1.0_wp + dot_product(weight(:n, n), rates%diagonal(:n)), influence%on_stress, rates)
+    at_end = combined(n, weight(:, n), 1.0_wp + dot_product(weight(:n, n), rates%diagonal(:n)), influence%on_stress, rates)
     rate = rate_at(n, at_end, rates)
     size = size_of(at_end) + left * size_of(rate)
     call decay(mode_size(0), mode_size(1), mode_size(2), 0.0_wp, highest, ratio)
@@ -118,7 +118,7 @@ contains
       none = 0.0_wp
       do k = 0, n
         direct(:, :, k) = rate_at(k, none, rates)
-     call linearise(m, tensors(k), sensitivities(m, nodes%void_ratio(k), tensors(k)), nodes%strain(k) * nodes%x(:, k), &
+        call linearise(m, tensors(k), sensitivities(m, nodes%void_ratio(k), tensors(k)), nodes%strain(k) * nodes%x(:, k), &
                        nodes%strain(k) * nodes%weight(k), by_stress(:, :, k), by_void_ratio)
       end do
       call influence_in_full(rule, direct, by_stress, leg%tolerance, left, influence%on_stress, at_end, rate, error)
@@ -168,7 +168,7 @@ contains
       do k = 0, n
         part = part + rule%mode(k, i) * rates%part(:, :, k)
       end do
- size = sqrt(6.0_wp * factor**2 + sum((part(:, part_d)**2 + part(:, part_normal)**2 + part(:, part_that)**2 / 3.0_wp + &
+        size = sqrt(6.0_wp * factor**2 + sum((part(:, part_d)**2 + part(:, part_normal)**2 + part(:, part_that)**2 / 3.0_wp + &
                                             part(:, part_unit)**2 * 3.0_wp) / multiplicity))
     end function mode_size
 
@@ -258,8 +258,8 @@ contains
           do k = 1, 6
             dots = dots + on(k) * directions(:, k)
           end do
-         right = factor * on + dots(6) * part(:, part_d) + dots(7) * part(:, part_normal) + dots(8) * part(:, part_unit)
-          if (started) right = right + carried * contracted(start, on)
+            right = factor * on + dots(6) * part(:, part_d) + dots(7) * part(:, part_normal) + dots(8) * part(:, part_unit)
+            if (started) right = right + carried * contracted(start, on)
           do k = 0, n
             right = right + weight(k, j) * dots(k + 1) * rates%part(:, part_that, k)
           end do

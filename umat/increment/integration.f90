@@ -104,7 +104,7 @@ contains
     if (m%intergranular) wanted = min(length, first_step(options, with_tangent) * m%R)
     if (starts_at_zero(leg%path)) wanted = min(wanted, first_from_zero(options) * m%R)
     step%rule = rule_long
-  if (with_tangent .and. wanted <= merge(few_nodes_of_R * m%R, few_nodes_plain, m%intergranular)) step%rule = rule_short
+    if (with_tangent .and. wanted <= merge(few_nodes_of_R * m%R, few_nodes_plain, m%intergranular)) step%rule = rule_short
     step%x = leg%path%start
     step%h = first_guess(m, leg%path, wanted)
     step%obstacle = status_step_limit

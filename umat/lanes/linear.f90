@@ -127,7 +127,7 @@ real(wp) :: n, alpha, beta, e_d0, e_i0, steepness, d1, d2, d3, d4, d5, d6, squar
       on_flow = flow * (f_d * d_F + F * (s%f_d_pressure(i) * pressure + s%f_d_e(i) * d_void_ratio(i)))
       on_that = dyad * (d1 * x(i, 1) + d2 * x(i, 2) + d3 * x(i, 3) + 2.0_wp * (d4 * x(i, 4) + d5 * x(i, 5) + d6 * x(i, 6))) + &
                 2.0_wp * on_flow
-  on_d = dyad * (t1 * x(i, 1) + t2 * x(i, 2) + t3 * x(i, 3) + 2.0_wp * (t4 * x(i, 4) + t5 * x(i, 5) + t6 * x(i, 6))) + &
+      on_d = dyad * (t1 * x(i, 1) + t2 * x(i, 2) + t3 * x(i, 3) + 2.0_wp * (t4 * x(i, 4) + t5 * x(i, 5) + t6 * x(i, 6))) + &
              2.0_wp * flow * f_d * F
       on_x = 2.0_wp * f_s * F * d_F
       on_flow = third * on_flow

@@ -266,7 +266,7 @@ real(wp) :: swell, change, e, log_e, log_p, power, argument, density, beyond, ex
       log_p = log_of_ratio(p%log_argument(i))
       power = origin%power(i) * exp_less_one(exponent * log_p)
       beyond = max(beyond, abs(power) * (1.0_wp / reach_of_power))
-    s%growth(i) = origin%growth(i) * (1.0_wp + power * (1.0_wp + power * (1.0_wp / 2 + power * (1.0_wp / 6 + power * ( &
+      s%growth(i) = origin%growth(i) * (1.0_wp + power * (1.0_wp + power * (1.0_wp / 2 + power * (1.0_wp / 6 + power * ( &
                                         1.0_wp / 24 + power * (1.0_wp / 120 + power * (1.0_wp / 720)))))))
       argument = (1.0_wp - exponent) * log_p - beta * (log_e + power)
       beyond = max(beyond, abs(argument) * (1.0_wp / reach_of_exp))

@@ -137,7 +137,7 @@ contains
       share = chosen(straight, m_R - m_T, 1.0_wp - m_T)
       !GCC$ unroll 3
       do k = 0, 2
- call operands_at(m_R, m_T, share, s, merge(0.0_wp, merge(c1, c2, k == 1), k == 0), on_along, on_across, o%weight(i, k))
+        call operands_at(m_R, m_T, share, s, merge(0.0_wp, merge(c1, c2, k == 1), k == 0), on_along, on_across, o%weight(i, k))
         o%weight(i, k) = lanes(b + i, l_length) * (1.0_wp - straight) * o%weight(i, k)
         !GCC$ unroll 6
         do j = 1, 6

@@ -22,7 +22,7 @@ module umat_delta_path
   use umat_tensor, only: ddot, norm
   implicit none
   private
- public :: delta_path_type, delta_path, path_point_type, path_point, delta_after, first_guess
+  public :: delta_path_type, delta_path, path_point_type, path_point, delta_after, first_guess
   public :: starts_at_zero, measures_length, kappa_slope
   public :: delta_influence_type, delta_influence
 

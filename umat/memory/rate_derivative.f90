@@ -51,7 +51,7 @@ contains
     call operands(m, g, d, branch, x, weight)
     rate = apply_L(h, x) + weight * h%N
     call linearise(m, h, sensitivities(m, void_ratio, h), x, weight, r%stress_by_stress, r%stress_by_void_ratio)
-   r%stress_by_parameter = stress_rate_by_parameter(m, void_ratio, h, g, d, branch, x, weight, rate, r%stress_by_stress)
+    r%stress_by_parameter = stress_rate_by_parameter(m, void_ratio, h, g, d, branch, x, weight, rate, r%stress_by_stress)
     r%delta_by_parameter = delta_rate_by_parameter(m, g, d, branch)
     r%stress_by_delta = 0.0_wp
     r%delta_by_delta = 0.0_wp

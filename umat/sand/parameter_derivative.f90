@@ -24,7 +24,7 @@ contains
   !> @param rate       L:X + weight N
   !> @param by_stress  its derivative with respect to stress: p_t shifts the stress that the model sees
   !> @return           (component, parameter), zero where a parameter has no influence
- pure function stress_rate_by_parameter(m, void_ratio, h, g, d, branch, x, weight, rate, by_stress) result(by_parameter)
+  pure function stress_rate_by_parameter(m, void_ratio, h, g, d, branch, x, weight, rate, by_stress) result(by_parameter)
     type(material_type), intent(in) :: m
     type(hypoplastic_type), intent(in) :: h
     type(intergranular_type), intent(in) :: g

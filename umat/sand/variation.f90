@@ -91,7 +91,7 @@ contains
       by_stress(j, j) = by_stress(j, j) + linear%diagonal
     end do
     if (h%outside) call through_border(m, h, by_stress)
-  by_void_ratio = linear%by_void_ratio(1) * h%that + linear%by_void_ratio(2) * x + linear%by_void_ratio(3) * unit_tensor
+    by_void_ratio = linear%by_void_ratio(1) * h%that + linear%by_void_ratio(2) * x + linear%by_void_ratio(3) * unit_tensor
   end subroutine linearise
 
   !> From changes of the stress that the model sees to changes of the stress.
