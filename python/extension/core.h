@@ -58,6 +58,8 @@ void core_version(char *text, size_t size);
 void core_quantity_name(int index, char *text, size_t size);
 /** core_material_size and core_state_size. */
 void core_sizes(int *numbers);
+/** Number of the first measure of stability: these are the last of the quantities that every model has. */
+int core_first_stability(void);
 /** numbers: parameters, state variables, their numbers, place of the intergranular strain, of the void ratio. */
 int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size);
 int core_set(int model, int index, double *material, char *name, char *description, char *source, size_t name_size,

@@ -55,6 +55,8 @@ void core_sizes(int *numbers) {
   numbers[1] = core_state_size;
 }
 
+int core_first_stability(void) { return HYPOFAB_FIRST_STABILITY; }
+
 int core_model(int index, char *name, char *description, int *numbers, size_t name_size, size_t description_size) {
   const hypofab_model *model = hypofab_model_at(index);
   if (!model) return HYPOFAB_BAD_ARGUMENT;

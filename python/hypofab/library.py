@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable
+from functools import cache
 from types import ModuleType
 from typing import TypeVar
 
@@ -25,6 +26,15 @@ T = TypeVar("T")
 def text(raw: bytes) -> str:
     """A text that came out of the library."""
     return raw.rstrip(b"\0 ").decode("utf-8", "replace")
+
+
+@cache
+def stability_quantities() -> tuple[str, ...]:
+    """Names of the measures of stability: they have no derivatives, and are in results where they are asked for."""
+    names: list[str] = []
+    while name := text(core.quantity_name(core.first_stability() + len(names))):
+        names.append(name)
+    return tuple(names)
 
 
 def last_message() -> str:

@@ -16,7 +16,7 @@ from hypofab.decks.steps import Step, Test, deck_of, deck_text
 from hypofab.decks.stiffness import FitOfC, Stiffness, stiffnesses
 from hypofab.errors import InputError, Status
 from hypofab.fabric.uncertainty import units_and_replicates
-from hypofab.library import check, core, interruptible, last_message, text
+from hypofab.library import check, core, interruptible, last_message, stability_quantities, text
 from hypofab.model.materials import Material
 from hypofab.model.states import State
 from hypofab.results.element_tests import WHOLE, TestResult
@@ -172,10 +172,8 @@ class Study:
     def _derivatives(
         self, index: int, rows: int, varied: int, count: int, width: int
     ) -> dict[str, dict[str, NDArray[np.float64]]]:
-        """By the number varied, then by quantity; those of stability, from work2 on, have none."""
-        quantities = self._quantities(index, width)
-        if "work2" in quantities:
-            quantities = quantities[: quantities.index("work2")]
+        """By the number varied, then by quantity; those of stability have none."""
+        quantities = [name for name in self._quantities(index, width) if name not in stability_quantities()]
         values = core.derivatives_take(rows, varied, len(quantities), count)
         names = (text(core.study_sensitivity_name(self._handle, index, k)) for k in range(varied))
         return {name: dict(zip(quantities, of_all, strict=True)) for name, of_all in zip(names, values, strict=True)}

@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hypofab.library import core, text
+from hypofab.library import core, stability_quantities, text
 from hypofab.sweeps.source import Node
 from hypofab.tensors import Array
 
 _KEYS = ("test", "step", "quantity", "at", "over", "from", "to", "points", "stopped", "unit")
 _AT = "end, start, max, min, rows, {max: QUANTITY}, {min: QUANTITY} or {QUANTITY: value}"
 _WORDS = ("end", "start", "max", "min", "rows")
-_FIRST_OF_STABILITY = "work2"
 
 
 @dataclass(frozen=True)
@@ -159,7 +158,7 @@ def _test(node: Node, entries: Mapping[str, Node], tests: Sequence[str] | None) 
 
 def _quantity(node: Node, stable: bool) -> str:
     name = node.one_of(quantities())
-    if not stable and name in quantities()[quantities().index(_FIRST_OF_STABILITY) : -2]:
+    if not stable and name in stability_quantities():
         node.refuse("stability: true in the test, which this quantity needs")
     return name
 
