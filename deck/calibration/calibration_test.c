@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "deck/calibration/calibration_resolve.h"
 #include "deck/resolve/resolve.h"
 

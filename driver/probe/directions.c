@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "driver/probe/sphere.h"
 #include "driver/tensor.h"
 

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "fabric2delta/changes/snapshot.h"
 #include "fabric2delta/fabric/fabric.h"
 #include "fabric2delta/fabric/rose.h"

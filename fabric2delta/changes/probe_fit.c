@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "hypofab.h"
 
 /* Singular values below this share of the largest one count as zero: the angles do not determine the coefficients. */

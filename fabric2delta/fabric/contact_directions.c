@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "fabric2delta/fabric/direction_bins.h"
 #include "fabric2delta/stream/contact_stream.h"
 

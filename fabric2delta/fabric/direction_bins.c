@@ -5,8 +5,8 @@
 
 #include <gsl/gsl_integration.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 
 /* Points per direction: harmonics of degree 2 are averaged to rounding and those of degree 8 to 1e-8 over sectors of 90
  * degrees, the largest that occur; smaller bins do better. */

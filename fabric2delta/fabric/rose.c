@@ -3,8 +3,8 @@
 #include <gsl/gsl_math.h>
 #include <math.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 
 /* A normal whose part in the plane is shorter has no direction there. */
 static const double shortest = 1e-9;

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "fabric2delta/fabric/fabric.h"
 #include "fabric2delta/statistics/interval.h"
 

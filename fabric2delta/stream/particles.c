@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "base/angle.h"
+#include "base/message.h"
 #include "base/text/table.h"
 #include "fabric2delta/formats/lammps_dump.h"
 
