@@ -23,9 +23,10 @@ def program(*arguments: str, cwd: Path, **environment: str) -> subprocess.Comple
 
 @pytest.fixture
 def stand_in(tmp_path: Path) -> Path:
-    """A folder with a package `hypofab` that tells what it was called with."""
+    """A folder with a package `hypofab` that tells what it was called with; a whole one, which goes before an installed."""
     folder = tmp_path / "stand_in" / "hypofab"
     folder.mkdir(parents=True)
+    (folder / "__init__.py").touch()
     code = "import sys\ndef main(arguments):\n  print(sys.executable, arguments)\n  return len(arguments)\n"
     (folder / "__main__.py").write_text(code)
     return folder.parent
