@@ -23,7 +23,7 @@ def program(*arguments: str, cwd: Path, **environment: str) -> subprocess.Comple
 
 @pytest.fixture
 def stand_in(tmp_path: Path) -> Path:
-    """A folder with a package `hypofab` that tells what it was called with; a whole one, which goes before an installed."""
+    """A folder with a package `hypofab` that tells what it was called with: whole, so before an installed one."""
     folder = tmp_path / "stand_in" / "hypofab"
     folder.mkdir(parents=True)
     (folder / "__init__.py").touch()
