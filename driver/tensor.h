@@ -31,6 +31,12 @@ static inline double tensor_deviatoric_norm(const double t[6]) {
   return tensor_norm(deviator);
 }
 
+/** The symmetric 3 x 3 matrix. */
+static inline void tensor_to_matrix(const double t[6], double matrix[9]) {
+  static const int place[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
+  for (int i = 0; i < 9; i++) matrix[i] = t[place[i]];
+}
+
 /** Components in the orthonormal basis of symmetric tensors: shear times sqrt(2), so that vectors' norms are tensors'.
  */
 static inline void tensor_to_vector(const double t[6], double vector[6]) {

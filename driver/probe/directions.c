@@ -1,12 +1,12 @@
 /* Spaces of probe directions, and evenly distributed directions in them. */
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_qrng.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/angle.h"
 #include "base/message.h"
+#include "driver/eigen.h"
 #include "driver/probe/sphere.h"
 #include "driver/tensor.h"
 
@@ -47,17 +47,10 @@ hypofab_status hypofab_subspace_principal(const double axes[6], hypofab_subspace
   if (axes) {
     if (!isfinite(tensor_norm(axes)))
       return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "the tensor of the principal axes is not finite");
-    double matrix[9] = {axes[0], axes[3], axes[4], axes[3], axes[1], axes[5], axes[4], axes[5], axes[2]};
-    double value[3], vector[9];
-    gsl_matrix_view m = gsl_matrix_view_array(matrix, 3, 3), v = gsl_matrix_view_array(vector, 3, 3);
-    gsl_vector_view l = gsl_vector_view_array(value, 3);
-    gsl_eigen_symmv_workspace *workspace = gsl_eigen_symmv_alloc(3);
-    if (!workspace) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for principal axes");
-    gsl_eigen_symmv(&m.matrix, &l.vector, &v.matrix, workspace);
-    gsl_eigen_symmv_free(workspace);
-    gsl_eigen_symmv_sort(&l.vector, &v.matrix, GSL_EIGEN_SORT_VAL_ASC);
-    for (int i = 0; i < 3; i++)
-      for (int k = 0; k < 3; k++) direction[i][k] = vector[3 * k + i];
+    double matrix[9], value[3];
+    tensor_to_matrix(axes, matrix);
+    const hypofab_status status = eigen_symmetric(3, matrix, GSL_EIGEN_SORT_VAL_ASC, value, direction[0]);
+    if (status) return status;
   }
   *space = (hypofab_subspace){.dimension = 3};
   for (int i = 0; i < 3; i++) {

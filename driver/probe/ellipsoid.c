@@ -1,11 +1,11 @@
 /* The ellipsoid nearest to an envelope: least squares of response = A direction + centre. */
-#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "driver/eigen.h"
 #include "driver/tensor.h"
 
 /* Smallest ratio of diagonal entries of R that still counts as full rank. */
@@ -120,17 +120,13 @@ static void find_axes(const points *p, double *map, hypofab_ellipsoid *ellipsoid
 
 /* The line through the origin that the points scatter along. */
 static hypofab_status find_direction(const points *p, hypofab_ellipsoid *ellipsoid) {
-  double moment[36] = {0}, value[6], vector[36], direction[6], sum = 0.0;
+  double moment[36] = {0}, value[6], vector[36], sum = 0.0;
   for (int i = 0; i < p->n; i++)
     for (int k = 0; k < 36; k++) moment[k] += p->response[6 * i + k / 6] * p->response[6 * i + k % 6];
-  gsl_matrix_view m = gsl_matrix_view_array(moment, 6, 6), v = gsl_matrix_view_array(vector, 6, 6);
-  gsl_vector_view l = gsl_vector_view_array(value, 6);
-  gsl_eigen_symmv_workspace *workspace = gsl_eigen_symmv_alloc(6);
-  if (!workspace) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for principal axes");
-  gsl_eigen_symmv(&m.matrix, &l.vector, &v.matrix, workspace);
-  gsl_eigen_symmv_free(workspace);
-  gsl_eigen_symmv_sort(&l.vector, &v.matrix, GSL_EIGEN_SORT_VAL_DESC);
-  for (int k = 0; k < 6; k++) sum += value[k], direction[k] = vector[6 * k];
+  const hypofab_status status = eigen_symmetric(6, moment, GSL_EIGEN_SORT_VAL_DESC, value, vector);
+  if (status) return status;
+  double *direction = vector; /* of the largest */
+  for (int k = 0; k < 6; k++) sum += value[k];
   ellipsoid->straightness = sum > 0.0 ? value[0] / sum : NAN;
   /* An axis has no sign; the one most of the points lie on is taken. */
   double along = 0.0;

@@ -4,13 +4,14 @@
 #include <gsl/gsl_sort_vector.h>
 #include <math.h>
 
+#include "driver/eigen.h"
 #include "driver/quantity/change.h"
 #include "driver/tensor.h"
 
 /* The matrix of -T. */
 static void matrix_of(const double t[6], double matrix[9]) {
-  const double of_minus[9] = {-t[0], -t[3], -t[4], -t[3], -t[1], -t[5], -t[4], -t[5], -t[2]};
-  for (int i = 0; i < 9; i++) matrix[i] = of_minus[i];
+  tensor_to_matrix(t, matrix);
+  for (int i = 0; i < 9; i++) matrix[i] = -matrix[i];
 }
 
 int principal_stresses(const double stress[6], double value[3]) {
@@ -29,18 +30,9 @@ int principal_stresses(const double stress[6], double value[3]) {
 
 principal_axes principal_axes_of(const double stress[6]) {
   principal_axes axes = {0};
-  double matrix[9], vectors[9];
+  double matrix[9];
   matrix_of(stress, matrix);
-  gsl_matrix_view m = gsl_matrix_view_array(matrix, 3, 3), v = gsl_matrix_view_array(vectors, 3, 3);
-  gsl_vector_view values = gsl_vector_view_array(axes.value, 3);
-  gsl_eigen_symmv_workspace *workspace = gsl_eigen_symmv_alloc(3);
-  if (!workspace) return axes;
-  gsl_eigen_symmv(&m.matrix, &values.vector, &v.matrix, workspace);
-  gsl_eigen_symmv_sort(&values.vector, &v.matrix, GSL_EIGEN_SORT_VAL_DESC);
-  gsl_eigen_symmv_free(workspace);
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) axes.direction[i][j] = vectors[3 * j + i];
-  axes.known = 1;
+  axes.known = !eigen_symmetric(3, matrix, GSL_EIGEN_SORT_VAL_DESC, axes.value, axes.direction[0]);
   return axes;
 }
 

@@ -1,12 +1,12 @@
 #include "driver/stability/second_order_work.h"
 
-#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
 #include "base/message.h"
+#include "driver/eigen.h"
 #include "driver/tensor.h"
 
 /* A part of N that is smaller than this, relative to N, does not tell one direction of an eigenspace from another. */
@@ -22,22 +22,12 @@ static double weight(int i) { return i < 3 ? 1.0 : M_SQRT2; }
 
 /* Eigenvalues of the symmetric part of a stiffness, on components that keep the norm of a tensor. */
 static hypofab_status decompose(const double stiffness[36], spectrum *s) {
-  double symmetric[36], vector[36];
+  double symmetric[36];
   for (int i = 0; i < 6; i++)
     for (int j = 0; j < 6; j++)
       symmetric[6 * i + j] = 0.5 * (stiffness[6 * i + j] * weight(i) / weight(j) +  //
                                     stiffness[6 * j + i] * weight(j) / weight(i));
-  gsl_eigen_symmv_workspace *workspace = gsl_eigen_symmv_alloc(6);
-  if (!workspace) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for eigenvalues");
-  gsl_matrix_view matrix = gsl_matrix_view_array(symmetric, 6, 6), vectors = gsl_matrix_view_array(vector, 6, 6);
-  gsl_vector_view values = gsl_vector_view_array(s->value, 6);
-  const int failed = gsl_eigen_symmv(&matrix.matrix, &values.vector, &vectors.matrix, workspace) ||
-                     gsl_eigen_symmv_sort(&values.vector, &vectors.matrix, GSL_EIGEN_SORT_VAL_ASC);
-  gsl_eigen_symmv_free(workspace);
-  if (failed) return hypofab_fail(HYPOFAB_INTERNAL_ERROR, "the eigenvalues of a stiffness were not found");
-  for (int k = 0; k < 6; k++)
-    for (int i = 0; i < 6; i++) s->vector[6 * k + i] = vector[6 * i + k];
-  return HYPOFAB_OK;
+  return eigen_symmetric(6, symmetric, GSL_EIGEN_SORT_VAL_ASC, s->value, s->vector);
 }
 
 static void combine(const spectrum *s, const double coefficient[6], double direction[6]) {

@@ -1,5 +1,4 @@
 /* Stability of a state, whatever is done to it, and of the control that a step applies. docs/stability.md. */
-#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
@@ -8,6 +7,7 @@
 #include "base/message.h"
 #include "driver/control/control.h"
 #include "driver/control/linear.h"
+#include "driver/eigen.h"
 #include "driver/stability/acoustic.h"
 #include "driver/stability/second_order_work.h"
 #include "driver/tensor.h"
@@ -22,22 +22,17 @@ static double degrees(double radians) { return radians * 180.0 / HYPOFAB_PI; }
  * directions where several are; NaN for isotropic stress.
  */
 static hypofab_status band_angle(const double stress[6], const double normal[3], double *angle) {
-  static const int voigt[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
   double matrix[9], value[3], vector[9];
-  for (int i = 0; i < 9; i++) matrix[i] = stress[voigt[i]];
-  gsl_eigen_symmv_workspace *workspace = gsl_eigen_symmv_alloc(3);
-  if (!workspace) return hypofab_fail(HYPOFAB_NO_MEMORY, "no memory for principal stresses");
-  gsl_matrix_view m = gsl_matrix_view_array(matrix, 3, 3), directions = gsl_matrix_view_array(vector, 3, 3);
-  gsl_vector_view values = gsl_vector_view_array(value, 3);
-  gsl_eigen_symmv(&m.matrix, &values.vector, &directions.matrix, workspace);
-  gsl_eigen_symmv_free(workspace);
-  double major = value[0], cosine = 0.0;
-  for (int k = 1; k < 3; k++) major = fmin(major, value[k]);
+  tensor_to_matrix(stress, matrix);
+  const hypofab_status status = eigen_symmetric(3, matrix, GSL_EIGEN_SORT_VAL_ASC, value, vector);
+  if (status) return status;
+  const double major = value[0];
+  double cosine = 0.0;
   int n_major = 0;
   for (int k = 0; k < 3; k++) {
     if (value[k] - major > equal * fabs(major)) continue;
     double along = 0.0;
-    for (int i = 0; i < 3; i++) along += normal[i] * vector[3 * i + k];
+    for (int i = 0; i < 3; i++) along += normal[i] * vector[3 * k + i];
     cosine = hypot(cosine, along);
     n_major++;
   }

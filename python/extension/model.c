@@ -75,8 +75,8 @@ int core_set(int model, int index, double *material, char *name, char *descripti
              size_t description_size, size_t source_size) {
   hypofab_set_info info;
   hypofab_material found;
-  hypofab_status status =
-      hypofab_model_at(model) ? hypofab_model_set(hypofab_model_at(model), index, &info) : HYPOFAB_BAD_ARGUMENT;
+  const hypofab_model *of = hypofab_model_at(model);
+  hypofab_status status = of ? hypofab_model_set(of, index, &info) : HYPOFAB_BAD_ARGUMENT;
   if (!status) status = hypofab_material_built_in(info.name, &found);
   if (status) return status;
   core_pack_material(&found, material);
@@ -89,8 +89,8 @@ int core_set(int model, int index, double *material, char *name, char *descripti
 int core_parameter(int model, int index, double *bounds, int *role, char *name, char *unit, char *description,
                    size_t name_size, size_t unit_size, size_t description_size) {
   hypofab_parameter_info info;
-  const hypofab_status status =
-      hypofab_model_at(model) ? hypofab_model_parameter(hypofab_model_at(model), index, &info) : HYPOFAB_BAD_ARGUMENT;
+  const hypofab_model *of = hypofab_model_at(model);
+  const hypofab_status status = of ? hypofab_model_parameter(of, index, &info) : HYPOFAB_BAD_ARGUMENT;
   if (status) return status;
   bounds[0] = info.lower;
   bounds[1] = info.upper;
@@ -105,8 +105,8 @@ int core_parameter(int model, int index, double *bounds, int *role, char *name, 
 int core_variable(int model, int index, int *numbers, double *start, char *name, char *unit, char *description,
                   size_t name_size, size_t unit_size, size_t description_size) {
   hypofab_variable_info info;
-  const hypofab_status status =
-      hypofab_model_at(model) ? hypofab_model_variable(hypofab_model_at(model), index, &info) : HYPOFAB_BAD_ARGUMENT;
+  const hypofab_model *of = hypofab_model_at(model);
+  const hypofab_status status = of ? hypofab_model_variable(of, index, &info) : HYPOFAB_BAD_ARGUMENT;
   if (status) return status;
   numbers[0] = (int)info.kind;
   numbers[1] = info.place;

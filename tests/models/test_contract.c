@@ -368,6 +368,19 @@ CONTRACT(derivatives)
 CONTRACT(batch)
 CONTRACT(small_strain)
 
+/* More variables than the arrays of many points have places for, though each is inside the numbers of a state. */
+static void too_many_variables_are_refused(void **unused) {
+  (void)unused;
+  hypofab_variable_info variables[HYPOFAB_MAX_NUMBERS + 1];
+  hypofab_model row = tiny_model;
+  row.info.name = "many";
+  row.info.n_variables = HYPOFAB_MAX_NUMBERS + 1;
+  row.variables = variables;
+  for (int i = 0; i <= HYPOFAB_MAX_NUMBERS; i++) variables[i] = tiny_model.variables[i % tiny_model.info.n_variables];
+  assert_int_equal(hypofab_model_register(&row), HYPOFAB_BAD_ARGUMENT);
+  assert_null(hypofab_model_find("many"));
+}
+
 int main(void) {
   if (hypofab_model_register(&tiny_model)) return 1;
   const struct CMUnitTest tests[] = {
@@ -376,7 +389,7 @@ int main(void) {
       cmocka_unit_test(units_holds),        cmocka_unit_test(parts_make_the_rate_holds),
       cmocka_unit_test(small_steps_holds),  cmocka_unit_test(tangent_holds),
       cmocka_unit_test(derivatives_holds),  cmocka_unit_test(batch_holds),
-      cmocka_unit_test(small_strain_holds),
+      cmocka_unit_test(small_strain_holds), cmocka_unit_test(too_many_variables_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

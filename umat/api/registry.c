@@ -1,5 +1,4 @@
 /* The models of this process: those of the library, and what was registered behind them. */
-#include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,9 +48,9 @@ static int is_complete(const hypofab_model *row) {
   const hypofab_model_info *info = &row->info;
   return row->size >= sizeof *row && info->name && info->description && info->n_parameters > 0 &&
          info->n_parameters <= HYPOFAB_MAX_PARAMETERS && info->n_numbers > 0 &&
-         info->n_numbers <= HYPOFAB_MAX_NUMBERS && row->variables && variables_fit(row) && row->parameter &&
-         row->check_material && row->check_state && row->rate && row->linear_parts && row->variable_rates &&
-         row->derivatives && row->update && row->strain_scale &&
+         info->n_numbers <= HYPOFAB_MAX_NUMBERS && info->n_variables <= HYPOFAB_MAX_NUMBERS && row->variables &&
+         variables_fit(row) && row->parameter && row->check_material && row->check_state && row->rate &&
+         row->linear_parts && row->variable_rates && row->derivatives && row->update && row->strain_scale &&
          (info->memory < 0 || (row->memory_size && row->memory_off && row->growth));
 }
 

@@ -1,4 +1,6 @@
 /* Many points at once: arguments, groups, threads. The update itself is the model's. */
+#include <stdbool.h>
+
 #include "base/message.h"
 #include "umat/api/options.h"
 #include "umat/api/rows.h"
@@ -33,6 +35,17 @@ typedef struct tally {
   const char *instructions;
 } tally;
 
+/* Variables of point i, from the arrays into the state or back. */
+static void copy_variables(const hypofab_model *model, double *const *variable, size_t stride, size_t i,
+                           hypofab_state *state, bool back) {
+  for (int v = 0; v < model->info.n_variables; v++)
+    for (size_t k = 0; variable[v] && k < (size_t)model->variables[v].kind; k++) {
+      double *in_state = &state->variable[(size_t)model->variables[v].place + k],
+             *in_array = &variable[v][k * stride + i];
+      *(back ? in_array : in_state) = *(back ? in_state : in_array);
+    }
+}
+
 /* n points one after the other, for a model without a batch. */
 static void update_in_turn(const hypofab_material *material, const hypofab_update_options *options, int n,
                            size_t stride, double *stress, double *const *variable, const double *strain, int *status,
@@ -44,16 +57,12 @@ static void update_in_turn(const hypofab_material *material, const hypofab_updat
     hypofab_update_report report = {0};
     hypofab_fault fault;
     for (size_t k = 0; k < 6; k++) state.stress[k] = stress[k * stride + i], increment[k] = strain[k * stride + i];
-    for (int v = 0; v < model->info.n_variables; v++)
-      for (int k = 0; variable[v] && k < (int)model->variables[v].kind; k++)
-        state.variable[model->variables[v].place + k] = variable[v][(size_t)k * stride + i];
+    copy_variables(model, variable, stride, (size_t)i, &state, false);
     status[i] = model->update(material->value, options, &state, increment, NULL, &report, &fault);
     evaluations[i] = report.evaluations;
     if (status[i]) continue;
     for (size_t k = 0; k < 6; k++) stress[k * stride + i] = state.stress[k];
-    for (int v = 0; v < model->info.n_variables; v++)
-      for (int k = 0; variable[v] && k < (int)model->variables[v].kind; k++)
-        variable[v][(size_t)k * stride + i] = state.variable[model->variables[v].place + k];
+    copy_variables(model, variable, stride, (size_t)i, &state, true);
   }
 }
 
