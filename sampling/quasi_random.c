@@ -1,10 +1,10 @@
 /* Quasi-random sequences, those of GSL by name. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_qrng.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/name_list.h"
 
 /* GSL's Sobol sequence has this many points less one; the others go on. */
 static const int64_t points_of_sobol = INT64_C(1) << 30;
@@ -30,14 +30,14 @@ int hypofab_sequence_dimensions(int index) {
 }
 
 static hypofab_status find(const char *name, const struct sequence **found) {
-  char known[128] = "";
+  name_list known = {""};
   for (int i = 0; i < N_SEQUENCES; i++) {
     *found = &sequences[i];
     if (name && !strcmp(name, sequences[i].name)) return HYPOFAB_OK;
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", sequences[i].name);
+    name_list_add(&known, sequences[i].name);
   }
-  return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "quasi-random sequence '%s', expected one of %s", name ? name : "", known);
+  return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "quasi-random sequence '%s', expected one of %s", name ? name : "",
+                      known.text);
 }
 
 static hypofab_status check(const struct sequence *sequence, int dimension, int64_t skip, int64_t n) {

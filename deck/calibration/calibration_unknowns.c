@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/name_list.h"
 #include "deck/calibration/calibration_resolve.h"
 #include "deck/resolve/resolve.h"
 #include "deck/source/numbers.h"
@@ -55,11 +56,9 @@ static hypofab_status refuse_name(const hypofab_calibration *c, const deck_sourc
                                   const char *name) {
   deck_numbers keys[DECK_MOST_NUMBERS];
   const int n = deck_bounds(c->problem.material.model, keys);
-  char known[512] = "";
-  size_t used = 0;
-  for (int i = 0; i < n && used < sizeof known; ++i)
-    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", keys[i].name);
-  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s', expected among %s", name, known);
+  name_list known = {""};
+  for (int i = 0; i < n; ++i) name_list_add(&known, keys[i].name);
+  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s', expected among %s", name, known.text);
 }
 
 static hypofab_status add_parameter(hypofab_calibration *c, const deck_source *source, unsigned entry) {

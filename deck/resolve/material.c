@@ -1,9 +1,9 @@
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/name_list.h"
 #include "deck/resolve/resolve.h"
 #include "deck/source/numbers.h"
 
@@ -17,13 +17,10 @@ static void convert_stresses(hypofab_material *material, double factor) {
 }
 
 static hypofab_status refuse_model(const deck_source *source, deck_key key, const char *name) {
-  char known[256] = "";
-  size_t used = 0;
+  name_list known = {""};
   const hypofab_model *model;
-  for (int i = 0; (model = hypofab_model_at(i)) && used < sizeof known; ++i)
-    used +=
-        (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", hypofab_model_describe(model)->name);
-  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "there is no model '%s', expected one of %s", name, known);
+  for (int i = 0; (model = hypofab_model_at(i)); ++i) name_list_add(&known, hypofab_model_describe(model)->name);
+  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "there is no model '%s', expected one of %s", name, known.text);
 }
 
 hypofab_status deck_start_material(const deck_source *source, deck_key at, const deck_choice *given, deck_unit unit,

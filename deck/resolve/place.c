@@ -2,7 +2,8 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
+
+#include "base/name_list.h"
 
 deck_key step_key(step_place place, const char *format, ...) {
   char rest[120];
@@ -17,14 +18,12 @@ hypofab_status study_resolve_quantity(const deck_source *source, deck_key key, c
                                       const char *name, hypofab_quantity *quantity) {
   *quantity = hypofab_model_quantity_find(model, name);
   if (*quantity != HYPOFAB_N_QUANTITIES) return HYPOFAB_OK;
-  char known[1024] = "";
+  name_list known = {""};
   hypofab_quantity column[HYPOFAB_N_QUANTITIES];
   const int n = hypofab_model_columns(model, 1, column);
   for (int i = 0; i < n; ++i) {
     char text[HYPOFAB_QUANTITY_NAME_SIZE];
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-             hypofab_model_quantity_name(model, column[i], text));
+    name_list_add(&known, hypofab_model_quantity_name(model, column[i], text));
   }
-  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is not a quantity, expected one of %s", name, known);
+  return deck_refuse(source, HYPOFAB_BAD_FILE, key, "'%s' is not a quantity, expected one of %s", name, known.text);
 }

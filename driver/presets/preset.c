@@ -1,9 +1,9 @@
 /* Steps by name: the presets of all families, and the check of what is given for their parameters. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/name_list.h"
 #include "driver/presets/preset_row.h"
 #include "driver/step/step.h"
 #include "driver/tensor.h"
@@ -42,30 +42,17 @@ const char *hypofab_preset_name(int index) {
   return row ? row->about.name : NULL;
 }
 
-/* A list of names being written: they are cut where there is no more room. */
-typedef struct name_list {
-  char text[HYPOFAB_MESSAGE_SIZE];
-  size_t used;
-} name_list;
-
-static void list_name(name_list *list, const char *name) {
-  const int length =
-      snprintf(list->text + list->used, sizeof list->text - list->used, "%s%s", list->used ? ", " : "", name);
-  list->used += (size_t)length;
-  if (list->used >= sizeof list->text) list->used = sizeof list->text - 1;
-}
-
 static hypofab_status refuse_unknown(const char *name) {
-  name_list known = {"", 0};
+  name_list known = {""};
   const char *one;
-  for (int i = 0; (one = hypofab_preset_name(i)); i++) list_name(&known, one);
+  for (int i = 0; (one = hypofab_preset_name(i)); i++) name_list_add(&known, one);
   return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, "preset",
                             "there is no preset \"%s\", expected one of: %s", name, known.text);
 }
 
 static hypofab_status refuse_unknown_parameter(const hypofab_preset *preset, const char *name) {
-  name_list known = {"", 0};
-  for (int k = 0; preset->parameters[k]; k++) list_name(&known, preset->parameters[k]->name);
+  name_list known = {""};
+  for (int k = 0; preset->parameters[k]; k++) name_list_add(&known, preset->parameters[k]->name);
   return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, name,
                             "preset %s takes no '%s', expected among %s", preset->name, name, known.text);
 }
@@ -124,21 +111,21 @@ static hypofab_status take_all(const hypofab_argument *arguments, int n, preset_
 
 /* Nothing that is required is missing, and of those of which some are wanted there is one. */
 static hypofab_status check_needs(const hypofab_preset *preset, const int *has) {
-  name_list missing = {"", 0}, some = {"", 0};
+  name_list missing = {""}, some = {""};
   const hypofab_preset_parameter *first = NULL;
   int n_some = 0;
   for (int k = 0; preset->parameters[k]; k++) {
     const hypofab_preset_parameter *one = preset->parameters[k];
-    if (one->need == HYPOFAB_SOME) list_name(&some, one->name), n_some += has[k];
+    if (one->need == HYPOFAB_SOME) name_list_add(&some, one->name), n_some += has[k];
     if (one->need != HYPOFAB_REQUIRED || has[k]) continue;
     if (!first) first = one;
-    list_name(&missing, one->name);
+    name_list_add(&missing, one->name);
   }
   if (first)
     return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, first->name,
                               "preset %s misses %s, expected %s", preset->name, missing.text,
                               first->kind == HYPOFAB_CHOICE ? first->expected : "a value");
-  if (some.used && !n_some)
+  if (some.text[0] && !n_some)
     return hypofab_fail(HYPOFAB_BAD_ARGUMENT, "preset %s moves nothing, expected one of %s", preset->name, some.text);
   return HYPOFAB_OK;
 }

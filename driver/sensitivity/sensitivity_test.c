@@ -1,9 +1,9 @@
 /* Element tests with derivatives: the public calls, and what variations are known by name. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/name_list.h"
 #include "driver/step/element_test.h"
 #include "driver/tensor.h"
 
@@ -50,13 +50,12 @@ const char *hypofab_variation_name(const hypofab_model *model, int index) {
 }
 
 static hypofab_status refuse_name(const hypofab_model *model, const char *name) {
-  char known[HYPOFAB_MESSAGE_SIZE] = "";
-  size_t used = 0;
+  name_list known = {""};
   const char *other;
-  for (int i = 0; (other = hypofab_variation_name(model, i)) && used < sizeof known; i++)
-    used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", other);
+  for (int i = 0; (other = hypofab_variation_name(model, i)); i++) name_list_add(&known, other);
   return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, "name",
-                            "'%s' is no parameter or number of the initial state, expected one of %s", name, known);
+                            "'%s' is no parameter or number of the initial state, expected one of %s", name,
+                            known.text);
 }
 
 /* The number of the initial state that a quantity names. */

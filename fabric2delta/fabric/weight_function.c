@@ -3,10 +3,10 @@
 #include "fabric2delta/fabric/weight_function.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/name_list.h"
 
 /* Paper 000, Eq. 7. */
 static double exponential(double a, double c) { return 1.0 - exp(-a / c); }
@@ -42,7 +42,7 @@ const char *hypofab_weight_formula(int index) {
 }
 
 hypofab_status weight_function_value(const char *name, double a, double c, double *value, double *slope) {
-  char known[128] = "";
+  name_list known = {""};
   for (int i = 0; i < N_FUNCTIONS; i++) {
     if (!name || !strcmp(name, functions[i].name)) {
       const double x = a / c;
@@ -50,9 +50,8 @@ hypofab_status weight_function_value(const char *name, double a, double c, doubl
       if (slope) *slope = isinf(x) ? 0.0 : -functions[i].slope(x) * x / c;
       return HYPOFAB_OK;
     }
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", functions[i].name);
+    name_list_add(&known, functions[i].name);
   }
   return hypofab_fail_about(HYPOFAB_BAD_ARGUMENT, HYPOFAB_ABOUT_ARGUMENT, -1, "weight",
-                            "weight function '%s'; expected one of %s", name, known);
+                            "weight function '%s'; expected one of %s", name, known.text);
 }
